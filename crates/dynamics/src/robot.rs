@@ -1,0 +1,366 @@
+//! The robot: a checked, immutable tree of bodies; its state; the vectors that go with it.
+
+use core::fmt;
+use core::ops::{Index, IndexMut, Range};
+use wrasse_spatial::{Mat3, Pose, Real, SpatialForce, SpatialInertia, SpatialVelocity, Sym3, Vec3};
+
+/// One of the robot's moving bodies. Links that are fixed to each other are one body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BodyId {
+    /// The free-flying base.
+    Base,
+    /// The body that the joint of this number carries.
+    Link(usize),
+}
+
+/// A frame fixed to a body: a tool, a mount, a grip.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame<T> {
+    /// The body that carries it.
+    pub body: BodyId,
+    /// `X_BF`.
+    pub X_BF: Pose<T>,
+}
+
+/// How a joint moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JointKind {
+    /// Turns about its axis (rad). A continuous joint is one without travel limits.
+    Revolute,
+    /// Slides along its axis (m).
+    Prismatic,
+}
+
+/// A joint and where it sits on its parent body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Joint<T> {
+    /// The body it is mounted on; a link parent has a smaller number.
+    pub parent: BodyId,
+    /// How it moves.
+    pub kind: JointKind,
+    /// `X_PB` at zero travel.
+    pub X_PB_zero: Pose<T>,
+    /// Unit axis, in the axes of the body that it carries (–).
+    pub axis_B: Vec3<T>,
+    /// `R_PB(q) = turn[0] + turn[1] sin q + turn[2] cos q`: the constants of a turn, folded once.
+    turn: [Mat3<T>; 3],
+}
+
+impl<T: Real> Joint<T> {
+    /// A joint on `parent`, with `X_PB` at zero travel and its axis in B axes (made a unit vector).
+    pub fn new(parent: BodyId, kind: JointKind, X_PB_zero: Pose<T>, axis_B: Vec3<T>) -> Self {
+        let a = axis_B * (T::one() / axis_B.norm());
+        let along = a.outer(a);
+        // Rodrigues: R(q) = a aᵀ + sin q [a]× + cos q (1 - a aᵀ).
+        let R = X_PB_zero.rotation;
+        let turn = [R * along, R * a.skew(), R * (Mat3::identity() - along)];
+        Self { parent, kind, X_PB_zero, axis_B: a, turn }
+    }
+    /// `X_PB` at travel `q` (rad or m).
+    #[inline(always)]
+    pub fn X_PB(&self, q: T) -> Pose<T> {
+        match self.kind {
+            JointKind::Revolute => {
+                let (s, c) = q.sin_cos();
+                let [along, sine, cosine] = &self.turn;
+                Pose::new(*along + sine.scaled(s) + cosine.scaled(c), self.X_PB_zero.translation)
+            }
+            JointKind::Prismatic => {
+                Pose::new(self.X_PB_zero.rotation, self.X_PB_zero.point(self.axis_B * q))
+            }
+        }
+    }
+    /// `S_B q̇`: velocity of B relative to its parent, at Bo, in B axes, for the joint rate `qdot`.
+    #[inline(always)]
+    pub fn velocity(&self, qdot: T) -> SpatialVelocity<T> {
+        let (o, along) = (Vec3::zero(), self.axis_B * qdot);
+        match self.kind {
+            JointKind::Revolute => SpatialVelocity::new(along, o),
+            JointKind::Prismatic => SpatialVelocity::new(o, along),
+        }
+    }
+    /// `S_Bᵀ F_B_B`: the part of a force that the joint's motor feels (N·m or N).
+    #[inline(always)]
+    pub fn project(&self, F_B_B: &SpatialForce<T>) -> T {
+        match self.kind {
+            JointKind::Revolute => self.axis_B.dot(F_B_B.torque),
+            JointKind::Prismatic => self.axis_B.dot(F_B_B.force),
+        }
+    }
+}
+
+/// What a body is made of.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Payload<T> {
+    /// Inertia about the frame it is attached to, in that frame's axes.
+    pub M_F_F: SpatialInertia<T>,
+    /// Sum of the inertias of its rigid parts, each about its own centre of mass, in the same axes
+    /// (kg·m²). Only equation (4) of the paper, as printed, asks for it.
+    pub I_parts_F: Sym3<T>,
+}
+
+impl<T: Real> Payload<T> {
+    /// One rigid part: mass (kg), centre of mass `p_FFcm_F` (m), central inertia (kg·m²).
+    pub fn from_central(mass: T, p_FFcm_F: Vec3<T>, I_FFcm_F: Sym3<T>) -> Self {
+        Self { M_F_F: SpatialInertia::from_central(mass, p_FFcm_F, I_FFcm_F), I_parts_F: I_FFcm_F }
+    }
+    /// The same matter, seen from a frame P in which this one's pose is `X_PF`.
+    #[must_use]
+    pub fn seen_from(&self, X_PF: &Pose<T>) -> Self {
+        Self {
+            M_F_F: X_PF.inertia_to_parent(&self.M_F_F),
+            I_parts_F: X_PF.rotation.congruence(self.I_parts_F),
+        }
+    }
+    /// Both together, about the same frame.
+    #[must_use]
+    pub fn and(&self, other: &Self) -> Self {
+        Self { M_F_F: self.M_F_F + other.M_F_F, I_parts_F: self.I_parts_F + other.I_parts_F }
+    }
+}
+
+/// Something for each body: one for the base, one for each link.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PerBody<E, const J: usize> {
+    /// The base's.
+    pub base: E,
+    /// The links', by joint number; those from the number of joints on are not used.
+    pub links: [E; J],
+}
+
+impl<E: Copy, const J: usize> PerBody<E, J> {
+    /// The same for every body.
+    #[inline(always)]
+    pub fn filled(e: E) -> Self {
+        Self { base: e, links: [e; J] }
+    }
+}
+impl<E, const J: usize> Index<BodyId> for PerBody<E, J> {
+    type Output = E;
+    #[inline(always)]
+    fn index(&self, body: BodyId) -> &E {
+        match body {
+            BodyId::Base => &self.base,
+            BodyId::Link(j) => &self.links[j],
+        }
+    }
+}
+impl<E, const J: usize> IndexMut<BodyId> for PerBody<E, J> {
+    #[inline(always)]
+    fn index_mut(&mut self, body: BodyId) -> &mut E {
+        match body {
+            BodyId::Base => &mut self.base,
+            BodyId::Link(j) => &mut self.links[j],
+        }
+    }
+}
+
+/// A tree of bodies on a free-flying base: at most `J` joints, parents before children.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Robot<T, const J: usize> {
+    count: usize,
+    joints: [Joint<T>; J],
+    matter: PerBody<Payload<T>, J>,
+}
+
+/// Why a robot cannot be built or used.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum RobotError {
+    /// More joints than the capacity.
+    TooManyJoints {
+        /// Joints given.
+        found: usize,
+        /// Joints that fit.
+        capacity: usize,
+    },
+    /// A joint is mounted on a body that comes after it, or that does not exist.
+    ParentAfterChild {
+        /// The joint's number.
+        joint: usize,
+    },
+    /// A body without positive, finite mass.
+    NoMass {
+        /// The body.
+        body: BodyId,
+    },
+}
+
+impl fmt::Display for RobotError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::TooManyJoints { found, capacity } => {
+                write!(f, "{found} moving joints, at most {capacity} fit")
+            }
+            Self::ParentAfterChild { joint } => {
+                write!(f, "joint {joint} is mounted on a body that does not come before it")
+            }
+            Self::NoMass { body } => write!(f, "{body:?} has no positive mass"),
+        }
+    }
+}
+impl core::error::Error for RobotError {}
+
+impl<T: Real, const J: usize> Robot<T, J> {
+    /// From its base, and each joint with the body it carries (about the body's origin).
+    ///
+    /// # Errors
+    /// If there are more than `J` joints, or a parent does not come before its child.
+    pub fn new(base: Payload<T>, links: &[(Joint<T>, Payload<T>)]) -> Result<Self, RobotError> {
+        if links.len() > J {
+            return Err(RobotError::TooManyJoints { found: links.len(), capacity: J });
+        }
+        let idle = Joint::new(
+            BodyId::Base,
+            JointKind::Revolute,
+            Pose::identity(),
+            Vec3::from_array([T::zero(), T::zero(), T::one()]),
+        );
+        let mut robot = Self {
+            count: links.len(),
+            joints: [idle; J],
+            matter: PerBody::filled(Payload::default()),
+        };
+        robot.matter.base = base;
+        for (j, (joint, matter)) in links.iter().enumerate() {
+            if matches!(joint.parent, BodyId::Link(p) if p >= j) {
+                return Err(RobotError::ParentAfterChild { joint: j });
+            }
+            robot.joints[j] = *joint;
+            robot.matter.links[j] = *matter;
+        }
+        Ok(robot)
+    }
+    /// Number of moving joints, n.
+    #[inline(always)]
+    pub fn joint_count(&self) -> usize {
+        self.count
+    }
+    /// Numbers of the moving joints, base to tips.
+    #[inline(always)]
+    pub fn joints(&self) -> Range<usize> {
+        0..self.count.min(J)
+    }
+    /// A joint.
+    #[inline(always)]
+    pub fn joint(&self, j: usize) -> &Joint<T> {
+        &self.joints[j]
+    }
+    /// `M_B_B` of a body about its origin.
+    #[inline(always)]
+    pub fn inertia(&self, body: BodyId) -> &SpatialInertia<T> {
+        &self.matter[body].M_F_F
+    }
+    /// Sum of the central inertias of the parts that are fixed together in this body (kg·m²).
+    #[inline(always)]
+    pub fn inertia_of_parts(&self, body: BodyId) -> &Sym3<T> {
+        &self.matter[body].I_parts_F
+    }
+    /// Total mass (kg).
+    pub fn mass(&self) -> T {
+        let links = self.joints().map(|j| self.matter.links[j].M_F_F.mass);
+        links.fold(self.matter.base.M_F_F.mass, |sum, m| sum + m)
+    }
+    /// The same robot holding a payload: its mass properties merge with the body of the frame.
+    #[must_use]
+    pub fn with_payload(&self, frame: &Frame<T>, payload: &Payload<T>) -> Self {
+        let mut robot = *self;
+        let body = &mut robot.matter[frame.body];
+        *body = body.and(&payload.seen_from(&frame.X_BF));
+        robot
+    }
+    /// All bodies, base first.
+    pub fn bodies(&self) -> impl Iterator<Item = BodyId> + use<T, J> {
+        core::iter::once(BodyId::Base).chain(self.joints().map(BodyId::Link))
+    }
+    /// The joints between the base and a body, tip first.
+    pub fn path_to_base(&self, body: BodyId) -> impl Iterator<Item = usize> + '_ {
+        let mut at = body;
+        core::iter::from_fn(move || match at {
+            BodyId::Base => None,
+            BodyId::Link(j) => {
+                at = self.joints[j].parent;
+                Some(j)
+            }
+        })
+    }
+    /// The joint by which the chain that carries a body leaves the base.
+    pub fn chain_root(&self, body: BodyId) -> Option<usize> {
+        self.path_to_base(body).last()
+    }
+}
+
+impl<const J: usize> Robot<f64, J> {
+    /// The same robot over another scalar.
+    pub fn cast<T: Real>(&self) -> Robot<T, J> {
+        let payload = |p: &Payload<f64>| Payload {
+            M_F_F: SpatialInertia::from_f64(&p.M_F_F),
+            I_parts_F: Sym3::from_f64(p.I_parts_F),
+        };
+        Robot {
+            count: self.count,
+            joints: self.joints.map(|j| Joint {
+                parent: j.parent,
+                kind: j.kind,
+                X_PB_zero: Pose::from_f64(&j.X_PB_zero),
+                axis_B: Vec3::from_f64(j.axis_B),
+                turn: j.turn.map(Mat3::from_f64),
+            }),
+            matter: PerBody {
+                base: payload(&self.matter.base),
+                links: core::array::from_fn(|j| payload(&self.matter.links[j])),
+            },
+        }
+    }
+}
+
+/// Where the robot is and how it moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct State<T, const J: usize> {
+    /// Pose of the base, `X_NB`.
+    pub X_NB: Pose<T>,
+    /// Twist of the base, `V_NB_B` (rad/s, m/s).
+    pub V_NB_B: SpatialVelocity<T>,
+    /// Joint positions (rad or m).
+    pub q: [T; J],
+    /// Joint rates (rad/s or m/s).
+    pub v: [T; J],
+}
+
+impl<T: Real, const J: usize> Default for State<T, J> {
+    fn default() -> Self {
+        Self {
+            X_NB: Pose::identity(),
+            V_NB_B: SpatialVelocity::zero(),
+            q: [T::zero(); J],
+            v: [T::zero(); J],
+        }
+    }
+}
+
+impl<T: Real, const J: usize> State<T, J> {
+    /// Generalized velocity.
+    #[inline(always)]
+    pub fn velocity(&self) -> GeneralizedVelocity<T, J> {
+        Generalized { base: self.V_NB_B, joints: self.v }
+    }
+}
+
+/// A vector over the degrees of freedom: six of the base, one for each joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Generalized<B, T, const J: usize> {
+    /// The base's six.
+    pub base: B,
+    /// The joints'.
+    pub joints: [T; J],
+}
+/// `[w_NB_B; v_NB_B; q̇]` or its time derivative.
+pub type GeneralizedVelocity<T, const J: usize> = Generalized<SpatialVelocity<T>, T, J>;
+/// `[torque about Bo; force; τ]`, base axes.
+pub type GeneralizedForce<T, const J: usize> = Generalized<SpatialForce<T>, T, J>;
+
+impl<B: Default, T: Real, const J: usize> Default for Generalized<B, T, J> {
+    fn default() -> Self {
+        Self { base: B::default(), joints: [T::zero(); J] }
+    }
+}

@@ -1,0 +1,1 @@
+//! What would fly: guidance, inverse kinematics, arm and attitude control.

@@ -1,0 +1,265 @@
+//! What a run leaves behind: verdicts, ledger, telemetry, pictures. Plain data for those who
+//! record, draw or judge it.
+
+use serde::Serialize;
+
+/// Everything about one `wrasse run`.
+#[derive(Debug, Clone, Serialize)]
+pub struct Outcome {
+    /// Name of the mission.
+    pub mission: String,
+    /// What it is for, from the mission file.
+    pub summary: String,
+    /// The mission file, as given.
+    pub mission_file: String,
+    /// The whole text of the mission file.
+    #[serde(skip)]
+    pub mission_text: String,
+    /// wrasse's version.
+    pub version: String,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// The vehicle that flew.
+    pub vehicle: VehicleCard,
+    /// What acted on the vehicle, in one sentence ("Free space: nothing acts but the actuators.").
+    pub environment: String,
+    /// One case, or one for each combination that the mission compares.
+    pub cases: Vec<CaseOutcome>,
+}
+
+/// The vehicle, as the report shows it.
+#[derive(Debug, Clone, Serialize)]
+pub struct VehicleCard {
+    /// Its name.
+    pub name: String,
+    /// One line.
+    pub summary: String,
+    /// Its file, or "catalogue".
+    pub file: String,
+    /// Total mass without payload (kg).
+    pub mass_kg: f64,
+    /// Number of moving joints.
+    pub joints: usize,
+    /// Where its numbers come from.
+    pub provenance: Vec<ProvenanceRow>,
+    /// Warnings and notes of its reading, one line each.
+    pub remarks: Vec<String>,
+}
+
+/// One source of numbers.
+#[derive(Debug, Clone, Serialize)]
+pub struct ProvenanceRow {
+    /// What it is about: `body.bus.mass_kg`.
+    pub of: String,
+    /// `published`, `derived` or `assumed`.
+    pub grade: String,
+    /// Document, page, or reasoning.
+    pub source: String,
+}
+
+/// How a case ended.
+#[derive(Debug, Clone, Serialize)]
+#[serde(rename_all = "kebab-case", tag = "kind")]
+pub enum End {
+    /// All phases were flown.
+    Completed,
+    /// The planning found that the way cannot be gone; nothing moved.
+    Infeasible {
+        /// Phase that cannot be flown.
+        phase: String,
+        /// Mission time at which the way ends (s).
+        time_s: f64,
+        /// Where and why the way ends, with numbers.
+        reason: String,
+    },
+    /// The run was stopped by an outcome of a phase (a refused grasp, say).
+    Stopped {
+        /// Phase that stopped it.
+        phase: String,
+        /// Mission time (s).
+        time_s: f64,
+        /// Why, with numbers.
+        reason: String,
+    },
+    /// A number was no longer finite.
+    Breakdown {
+        /// Mission time (s).
+        time_s: f64,
+        /// Which quantity of which body.
+        reason: String,
+    },
+}
+
+/// One case: what was asked, what came of it.
+#[derive(Debug, Clone, Serialize)]
+pub struct CaseOutcome {
+    /// What tells it from the others: (axis, row) as the mission file names them; empty for a
+    /// mission with a single case.
+    pub labels: Vec<(String, String)>,
+    /// How it ended.
+    pub end: End,
+    /// All requirements hold and the ledger closes.
+    pub passed: bool,
+    /// Requirements and their verdicts, in the order of the file.
+    pub verdicts: Vec<Verdict>,
+    /// Every metric that could have been required, in a fixed order.
+    pub metrics: Vec<Metric>,
+    /// Momentum and energy.
+    pub ledger: Ledger,
+    /// What was planned before the arm moved, a line for each phase.
+    pub plan: Vec<PlanLine>,
+    /// Things that happened, in order: phases, limits reached, saturations.
+    pub events: Vec<Event>,
+    /// Integration error, if asked for.
+    pub error_estimate: Vec<Metric>,
+    /// Time histories.
+    #[serde(skip)]
+    pub telemetry: Telemetry,
+    /// The motion, for a drawing.
+    #[serde(skip)]
+    pub snapshots: Vec<Snapshot>,
+}
+
+/// What the planning found for one phase.
+#[derive(Debug, Clone, Serialize)]
+pub struct PlanLine {
+    /// Name of the phase.
+    pub phase: String,
+    /// What was found, with numbers.
+    pub text: String,
+}
+
+/// Something that happened.
+#[derive(Debug, Clone, Serialize)]
+pub struct Event {
+    /// Mission time (s).
+    pub time_s: f64,
+    /// What happened, with numbers.
+    pub text: String,
+}
+
+/// One requirement and its verdict. Values are in the unit the requirement was written in.
+#[derive(Debug, Clone, Serialize)]
+pub struct Verdict {
+    /// The requirement as written.
+    pub requirement: String,
+    /// `<=` or `>=` and so on.
+    pub comparison: String,
+    /// The limit.
+    pub limit: f64,
+    /// What came out; absent where the run ended before there was a value.
+    pub value: Option<f64>,
+    /// Unit of limit and value.
+    pub unit: String,
+    /// Whether it holds.
+    pub pass: bool,
+}
+
+/// A named number.
+#[derive(Debug, Clone, Serialize)]
+pub struct Metric {
+    /// Its name, as requirements use it: `tool.position_error.max`.
+    pub name: String,
+    /// Value in SI (or degrees where the unit says so).
+    pub value: f64,
+    /// Unit.
+    pub unit: String,
+}
+
+/// Where momentum and energy went. Vectors are in inertial axes; angular momentum is about the
+/// centre of mass of everything that is simulated.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct Ledger {
+    /// Angular momentum of all bodies at the start (N·m·s).
+    pub angular_start: [f64; 3],
+    /// … at the end (N·m·s).
+    pub angular_end: [f64; 3],
+    /// Angular impulse by which the attitude actuator turned the bodies (N·m·s): what it stores is the
+    /// opposite.
+    pub angular_from_actuator: [f64; 3],
+    /// Angular impulse from outside (N·m·s).
+    pub angular_from_outside: [f64; 3],
+    /// What is left unexplained, largest over the run (N·m·s).
+    pub angular_rest: f64,
+    /// Scale of the rest: the sum of the bodies' absolute angular momenta, largest over the run
+    /// (N·m·s).
+    pub angular_scale: f64,
+    /// Linear momentum at the start (N·s).
+    pub linear_start: [f64; 3],
+    /// … at the end (N·s).
+    pub linear_end: [f64; 3],
+    /// Impulse from outside (N·s).
+    pub linear_from_outside: [f64; 3],
+    /// Unexplained, largest over the run (N·s).
+    pub linear_rest: f64,
+    /// Sum of the bodies' absolute momenta, largest over the run (N·s).
+    pub linear_scale: f64,
+    /// Kinetic energy at the start (J).
+    pub energy_start: f64,
+    /// … at the end (J).
+    pub energy_end: f64,
+    /// Work of the joint drives (J).
+    pub work_of_joints: f64,
+    /// Work of the attitude actuator on the base (J).
+    pub work_of_actuator: f64,
+    /// Work from outside (J).
+    pub work_from_outside: f64,
+    /// Energy change at grasps and releases (J): negative where a grasp dissipates.
+    pub energy_at_grasps: f64,
+    /// Unexplained, largest over the run (J).
+    pub energy_rest: f64,
+    /// Largest energy in play (J).
+    pub energy_scale: f64,
+    /// Whether each rest is within its bound.
+    pub closes: bool,
+    /// The bounds that were applied, relative to the scales: angular, linear, energy.
+    pub bounds: [f64; 3],
+}
+
+/// Time histories of one case.
+#[derive(Debug, Clone, Default)]
+pub struct Telemetry {
+    /// Sample times (s).
+    pub time: Vec<f64>,
+    /// The channels, each as long as `time`.
+    pub channels: Vec<Channel>,
+}
+
+/// One quantity over time.
+#[derive(Debug, Clone)]
+pub struct Channel {
+    /// Name with dots, ending in the component: `base.attitude_error.x`, `joint.joint1.rate`.
+    pub name: String,
+    /// Unit.
+    pub unit: String,
+    /// The plot it belongs to: channels of one plot share a unit (or a second axis).
+    pub plot: String,
+    /// The line's name in the plot.
+    pub label: String,
+    /// Values, one for each sample time.
+    pub values: Vec<f64>,
+}
+
+/// The vehicle at one instant, as lines and boxes in inertial axes (m).
+#[derive(Debug, Clone)]
+pub struct Snapshot {
+    /// Mission time (s).
+    pub time: f64,
+    /// Wire boxes: eight corners each, in the order of binary counting (x fastest).
+    pub boxes: Vec<SnapshotBox>,
+    /// The arms: each a line through its joints from the base to the tool.
+    pub arms: Vec<Vec<[f64; 3]>>,
+    /// The tool's position.
+    pub tool: [f64; 3],
+    /// Where the tool should be.
+    pub reference: [f64; 3],
+}
+
+/// A box in a drawing.
+#[derive(Debug, Clone)]
+pub struct SnapshotBox {
+    /// What it is (a link, a payload).
+    pub name: String,
+    /// Corners (m).
+    pub corners: [[f64; 3]; 8],
+}

@@ -1,0 +1,1 @@
+//! Results out: Parquet telemetry, summary, the HTML report.

@@ -1,0 +1,102 @@
+//! Dual numbers: a value and its exact derivative, carried through any kernel of this workspace.
+
+use crate::Real;
+use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+
+/// `value + derivative·ε` with ε² = 0.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Dual<T> {
+    /// The value.
+    pub value: T,
+    /// Its derivative with respect to the one parameter that is varied.
+    pub derivative: T,
+}
+
+impl<T: Real> Dual<T> {
+    /// A value that changes at the given rate.
+    #[inline(always)]
+    pub fn new(value: T, derivative: T) -> Self {
+        Self { value, derivative }
+    }
+}
+
+impl<T: Real> Add for Dual<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, b: Self) -> Self {
+        Self::new(self.value + b.value, self.derivative + b.derivative)
+    }
+}
+impl<T: Real> Sub for Dual<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, b: Self) -> Self {
+        Self::new(self.value - b.value, self.derivative - b.derivative)
+    }
+}
+impl<T: Real> Mul for Dual<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, b: Self) -> Self {
+        Self::new(self.value * b.value, self.derivative * b.value + self.value * b.derivative)
+    }
+}
+impl<T: Real> Div for Dual<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, b: Self) -> Self {
+        let value = self.value / b.value;
+        Self::new(value, (self.derivative - value * b.derivative) / b.value)
+    }
+}
+impl<T: Real> Neg for Dual<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self::new(-self.value, -self.derivative)
+    }
+}
+impl<T: Real> AddAssign for Dual<T> {
+    #[inline(always)]
+    fn add_assign(&mut self, b: Self) {
+        *self = *self + b;
+    }
+}
+impl<T: Real> SubAssign for Dual<T> {
+    #[inline(always)]
+    fn sub_assign(&mut self, b: Self) {
+        *self = *self - b;
+    }
+}
+impl<T: Real> MulAssign for Dual<T> {
+    #[inline(always)]
+    fn mul_assign(&mut self, b: Self) {
+        *self = *self * b;
+    }
+}
+
+impl<T: Real> Real for Dual<T> {
+    type Mask = T::Mask;
+    #[inline(always)]
+    fn from_f64(x: f64) -> Self {
+        Self::new(T::from_f64(x), T::zero())
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        let root = self.value.sqrt();
+        Self::new(root, self.derivative / (root + root))
+    }
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        let (s, c) = self.value.sin_cos();
+        (Self::new(s, c * self.derivative), Self::new(c, -s * self.derivative))
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> Self::Mask {
+        self.value.lt(other.value)
+    }
+    #[inline(always)]
+    fn select(mask: Self::Mask, a: Self, b: Self) -> Self {
+        Self::new(T::select(mask, a.value, b.value), T::select(mask, a.derivative, b.derivative))
+    }
+}

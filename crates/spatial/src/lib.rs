@@ -1,0 +1,28 @@
+//! Poses, spatial velocities, forces and inertias over any scalar. No heap, no `std`.
+//!
+//! Notation is monogram: `X_NB` is the pose of B measured in N, and inner letters touch in every
+//! product (`X_NE = X_NB * X_BE`). The angular part comes first in every spatial vector. See
+//! `book/src/notation.md`.
+#![no_std]
+#![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
+
+mod dual;
+mod inertia;
+mod matrix;
+mod motion;
+mod pose;
+mod quaternion;
+mod real;
+pub mod references;
+mod rotation_vector;
+mod vector;
+
+pub use dual::Dual;
+pub use inertia::{ArticulatedInertia, SpatialInertia};
+pub use matrix::{Mat3, Sym3};
+pub use motion::{SpatialAcceleration, SpatialForce, SpatialMomentum, SpatialVelocity};
+pub use pose::Pose;
+pub use quaternion::Quat;
+pub use real::{Real, Scalar};
+pub use rotation_vector::{rotation_vector_rate, turned_by};
+pub use vector::{Vec3, vec3};

@@ -1,0 +1,166 @@
+//! Unit quaternions, named `w x y z`.
+
+use crate::{Mat3, Real, Scalar, Vec3, vec3};
+use core::ops::Mul;
+
+/// Unit quaternion `quat_NB`: turns B components into N components, like `R_NB`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[allow(missing_docs, reason = "the fields are the components they name")]
+pub struct Quat<T> {
+    pub w: T,
+    pub x: T,
+    pub y: T,
+    pub z: T,
+}
+
+impl<T: Real> Default for Quat<T> {
+    fn default() -> Self {
+        Self::identity()
+    }
+}
+
+impl<T: Real> Quat<T> {
+    /// From its components.
+    #[inline(always)]
+    pub fn new(w: T, x: T, y: T, z: T) -> Self {
+        Self { w, x, y, z }
+    }
+    /// No rotation.
+    #[inline(always)]
+    pub fn identity() -> Self {
+        Self::new(T::one(), T::zero(), T::zero(), T::zero())
+    }
+    /// The vector part.
+    #[inline(always)]
+    pub fn vector(&self) -> Vec3<T> {
+        vec3(self.x, self.y, self.z)
+    }
+    /// The inverse rotation.
+    #[inline(always)]
+    #[must_use]
+    pub fn conjugate(&self) -> Self {
+        Self::new(self.w, -self.x, -self.y, -self.z)
+    }
+    /// Length (–): 1 for a rotation.
+    #[inline(always)]
+    pub fn norm(&self) -> T {
+        (self.w * self.w + self.vector().dot(self.vector())).sqrt()
+    }
+    /// Scaled to length 1.
+    #[inline(always)]
+    #[must_use]
+    pub fn normalized(&self) -> Self {
+        let s = T::one() / self.norm();
+        Self::new(self.w * s, self.x * s, self.y * s, self.z * s)
+    }
+    /// Turn by the rotation vector `r` (rad): `exp(r/2)`.
+    #[inline(always)]
+    pub fn exp(r: Vec3<T>) -> Self {
+        // sin(θ/2)/θ by its series near zero, where the quotient loses its meaning.
+        let half = T::from_f64(0.5);
+        let square = r.dot(r);
+        let small = square.lt(T::from_f64(1e-8));
+        let theta = T::select(small, T::one(), square).sqrt();
+        let (s, c) = (theta * half).sin_cos();
+        let ratio = T::select(small, half - square * T::from_f64(1.0 / 48.0), s / theta);
+        let w = T::select(small, T::one() - square * T::from_f64(0.125), c);
+        let v = r * ratio;
+        Self::new(w, v.x, v.y, v.z)
+    }
+    /// Rotation matrix `R_NB` of a unit quaternion.
+    #[inline(always)]
+    pub fn to_matrix(&self) -> Mat3<T> {
+        let (w, x, y, z) = (self.w, self.x, self.y, self.z);
+        let (x2, y2, z2) = (x + x, y + y, z + z);
+        let (xx, yy, zz) = (x * x2, y * y2, z * z2);
+        let (xy, xz, yz) = (x * y2, x * z2, y * z2);
+        let (wx, wy, wz) = (w * x2, w * y2, w * z2);
+        let one = T::one();
+        Mat3::from_rows(
+            vec3(one - yy - zz, xy - wz, xz + wy),
+            vec3(xy + wz, one - xx - zz, yz - wx),
+            vec3(xz - wy, yz + wx, one - xx - yy),
+        )
+    }
+}
+
+impl<T: Scalar> Quat<T> {
+    /// Rotation vector (rad, |r| ≤ π) of the shorter way: the inverse of [`exp`](Self::exp).
+    pub fn log(&self) -> Vec3<T> {
+        let q =
+            if self.w < T::zero() { Self::new(-self.w, -self.x, -self.y, -self.z) } else { *self };
+        let s = q.vector().norm();
+        // atan2(s, w)·2/s → 2/w as s → 0, with an error of s²·2/3.
+        let small = s < T::from_f64(1e-8);
+        let ratio =
+            if small { T::from_f64(2.0) / q.w } else { T::from_f64(2.0) * s.atan2(q.w) / s };
+        q.vector() * ratio
+    }
+    /// From a rotation matrix (Shepperd: the largest component first, so that nothing cancels).
+    pub fn from_matrix(R: &Mat3<T>) -> Self {
+        let [a, b, c] = R.rows;
+        let (one, half) = (T::one(), T::from_f64(0.5));
+        let trace = a.x + b.y + c.z;
+        let root = |x: T| (one + x).sqrt();
+        let q = if trace > a.x.max(b.y).max(c.z) {
+            let s = root(trace);
+            let t = half / s;
+            Self::new(half * s, (c.y - b.z) * t, (a.z - c.x) * t, (b.x - a.y) * t)
+        } else if a.x >= b.y && a.x >= c.z {
+            let s = root(a.x - b.y - c.z);
+            let t = half / s;
+            Self::new((c.y - b.z) * t, half * s, (a.y + b.x) * t, (a.z + c.x) * t)
+        } else if b.y >= c.z {
+            let s = root(b.y - a.x - c.z);
+            let t = half / s;
+            Self::new((a.z - c.x) * t, (a.y + b.x) * t, half * s, (b.z + c.y) * t)
+        } else {
+            let s = root(c.z - a.x - b.y);
+            let t = half / s;
+            Self::new((b.x - a.y) * t, (a.z + c.x) * t, (b.z + c.y) * t, half * s)
+        };
+        q.normalized()
+    }
+}
+
+impl<T: Real> Mul for Quat<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, b: Self) -> Self {
+        let (u, v) = (self.vector(), b.vector());
+        let r = v * self.w + u * b.w + u.cross(v);
+        Self::new(self.w * b.w - u.dot(v), r.x, r.y, r.z)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn log_undoes_exp_near_zero_and_near_half_a_turn() {
+        for r in [vec3(1e-12, 0.0, -2e-12), vec3(0.3, -0.2, 0.5), vec3(1.8, -1.8, 1.8)] {
+            let d = Quat::exp(r).log() - r;
+            assert!(d.norm() <= 1e-15 * (1.0 + r.norm()) * 2.0, "{r:?} off by {}", d.norm());
+        }
+    }
+
+    #[test]
+    fn matrix_and_quaternion_agree_in_all_four_branches() {
+        for r in
+            [vec3(0.1, 0.2, -0.1), vec3(3.0, 0.1, 0.2), vec3(0.1, -3.0, 0.2), vec3(0.1, 0.2, 3.0)]
+        {
+            let q = Quat::exp(r);
+            let back = Quat::from_matrix(&q.to_matrix());
+            let d = (back * q.conjugate()).log();
+            assert!(d.norm() < 1e-15, "measured 3e-16: {}", d.norm());
+        }
+    }
+
+    #[test]
+    fn quaternion_turns_x_to_y_for_a_quarter_turn_about_z() {
+        let R = Quat::exp(vec3(0.0, 0.0, core::f64::consts::FRAC_PI_2)).to_matrix();
+        let y = R * vec3(1.0, 0.0, 0.0);
+        assert!((y - vec3(0.0, 1.0, 0.0)).norm() < 1e-15, "{y:?}");
+    }
+}

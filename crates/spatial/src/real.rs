@@ -1,0 +1,141 @@
+//! The scalar that the core is written over: `f64`, `f32`, duals, and later lanes.
+
+use core::fmt::Debug;
+use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for f64 {}
+    impl Sealed for f32 {}
+    impl<T: Sealed> Sealed for crate::Dual<T> {}
+}
+
+/// A real number, or several of them side by side. Kernels never branch on its value: they
+/// [`select`](Real::select), so that many numbers at a time take the same way.
+pub trait Real:
+    sealed::Sealed
+    + Copy
+    + Default
+    + Debug
+    + PartialEq
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+    + MulAssign
+    + 'static
+{
+    /// The answer to a comparison (`bool` for one number).
+    type Mask: Copy;
+    /// The nearest representable number.
+    fn from_f64(x: f64) -> Self;
+    /// Square root.
+    #[must_use]
+    fn sqrt(self) -> Self;
+    /// Sine and cosine of an angle (rad), from one portable source.
+    fn sin_cos(self) -> (Self, Self);
+    /// `self < other`.
+    fn lt(self, other: Self) -> Self::Mask;
+    /// `a` where the mask holds, else `b`.
+    #[must_use]
+    fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
+
+    /// Zero.
+    #[inline(always)]
+    #[must_use]
+    fn zero() -> Self {
+        Self::from_f64(0.0)
+    }
+    /// One.
+    #[inline(always)]
+    #[must_use]
+    fn one() -> Self {
+        Self::from_f64(1.0)
+    }
+    /// Magnitude.
+    #[inline(always)]
+    #[must_use]
+    fn abs(self) -> Self {
+        Self::select(self.lt(Self::zero()), -self, self)
+    }
+    /// The larger of two.
+    #[inline(always)]
+    #[must_use]
+    fn max(self, other: Self) -> Self {
+        Self::select(self.lt(other), other, self)
+    }
+    /// The smaller of two.
+    #[inline(always)]
+    #[must_use]
+    fn min(self, other: Self) -> Self {
+        Self::select(other.lt(self), other, self)
+    }
+    /// Held between `-limit` and `limit`.
+    #[inline(always)]
+    #[must_use]
+    fn clamp_to(self, limit: Self) -> Self {
+        self.min(limit).max(-limit)
+    }
+}
+
+/// A single real number: code that may decide on a value (planning, inverse kinematics).
+pub trait Scalar: Real<Mask = bool> + PartialOrd {
+    /// As `f64`.
+    fn to_f64(self) -> f64;
+    /// Angle of the point (x, y) = (`x`, `self`), rad in (-π, π].
+    #[must_use]
+    fn atan2(self, x: Self) -> Self;
+    /// Inverse cosine (rad); the argument must lie in [-1, 1].
+    #[must_use]
+    fn acos(self) -> Self;
+    /// Neither infinite nor NaN.
+    fn is_finite(self) -> bool;
+}
+
+macro_rules! float {
+    ($float:ty, $sqrt:path, $sin_cos:path, $atan2:path, $acos:path) => {
+        impl Real for $float {
+            type Mask = bool;
+            #[inline(always)]
+            #[allow(clippy::cast_possible_truncation, reason = "f32 is asked for")]
+            fn from_f64(x: f64) -> Self {
+                x as $float
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                $sqrt(self)
+            }
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                $sin_cos(self)
+            }
+            #[inline(always)]
+            fn lt(self, other: Self) -> bool {
+                self < other
+            }
+            #[inline(always)]
+            fn select(mask: bool, a: Self, b: Self) -> Self {
+                if mask { a } else { b }
+            }
+        }
+        impl Scalar for $float {
+            fn to_f64(self) -> f64 {
+                f64::from(self)
+            }
+            fn atan2(self, x: Self) -> Self {
+                $atan2(self, x)
+            }
+            fn acos(self) -> Self {
+                $acos(self)
+            }
+            fn is_finite(self) -> bool {
+                <$float>::is_finite(self)
+            }
+        }
+    };
+}
+float!(f64, libm::sqrt, libm::sincos, libm::atan2, libm::acos);
+float!(f32, libm::sqrtf, libm::sincosf, libm::atan2f, libm::acosf);

@@ -1,0 +1,52 @@
+//! Every source this workspace cites, one item each: a docstring that cites something else does
+//! not build.
+
+/// R. Featherstone, *Rigid Body Dynamics Algorithms*, Springer, 2008.
+#[derive(Debug)]
+pub enum Featherstone2008 {}
+/// A. Ellery, *Space Robotics Part 2: Space-based Manipulators*, International Journal of Advanced
+/// Robotic Systems 1(3), 2004.
+#[derive(Debug)]
+pub enum Ellery2004 {}
+/// Y. Umetani, K. Yoshida, *Resolved motion rate control of space manipulators with generalized
+/// Jacobian matrix*, IEEE Transactions on Robotics and Automation 5(3), 1989.
+#[derive(Debug)]
+pub enum UmetaniYoshida1989 {}
+/// Z. Vafa, S. Dubowsky, *The kinematics and dynamics of space manipulators: the virtual
+/// manipulator approach*, International Journal of Robotics Research 9(4), 1990.
+#[derive(Debug)]
+pub enum VafaDubowsky1990 {}
+/// E. Papadopoulos, S. Dubowsky, *Dynamic singularities in free-floating space manipulators*, ASME
+/// Journal of Dynamic Systems, Measurement, and Control 115, 1993.
+#[derive(Debug)]
+pub enum PapadopoulosDubowsky1993 {}
+/// D. Nenchev, Y. Umetani, K. Yoshida, *Analysis of a redundant free-flying spacecraft/manipulator
+/// system*, IEEE Transactions on Robotics and Automation 8(1), 1992.
+#[derive(Debug)]
+pub enum Nenchev1992 {}
+/// D. Orin, A. Goswami, S.-H. Lee, *Centroidal dynamics of a humanoid robot*, Autonomous Robots 35,
+/// 2013.
+#[derive(Debug)]
+pub enum Orin2013 {}
+/// R. Longman, R. Lindberg, M. Zedd, *Satellite-mounted robot manipulators: new kinematics and
+/// reaction moment compensation*, International Journal of Robotics Research 6(3), 1987.
+#[derive(Debug)]
+pub enum Longman1987 {}
+/// H. Munthe-Kaas, *Runge-Kutta methods on Lie groups*, BIT Numerical Mathematics 38(1), 1998.
+#[derive(Debug)]
+pub enum MuntheKaas1998 {}
+/// E. Hairer, S. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, 2nd ed.,
+/// Springer, 1993.
+#[derive(Debug)]
+pub enum Hairer1993 {}
+/// K. Kreutz-Delgado, M. Long, H. Seraji, *Kinematic analysis of 7-DOF manipulators*, International
+/// Journal of Robotics Research 11(5), 1992.
+#[derive(Debug)]
+pub enum KreutzDelgado1992 {}
+/// Y. Nakamura, H. Hanafusa, *Inverse kinematic solutions with singularity robustness for robot
+/// manipulator control*, ASME Journal of Dynamic Systems, Measurement, and Control 108, 1986.
+#[derive(Debug)]
+pub enum NakamuraHanafusa1986 {}
+/// B. Wie, *Space Vehicle Dynamics and Control*, 2nd ed., AIAA, 2008.
+#[derive(Debug)]
+pub enum Wie2008 {}

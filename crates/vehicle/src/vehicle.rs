@@ -1,0 +1,127 @@
+//! A checked vehicle: everything that the rest of the program knows of it.
+
+use wrasse_document::Complaint;
+use wrasse_dynamics::{Frame, Robot};
+use wrasse_hardware::{AttitudeActuator, JointLimits};
+use wrasse_spatial::{Pose, Vec3};
+
+/// Most moving joints a vehicle can have.
+pub const JOINTS: usize = 20;
+
+/// The robot of a vehicle file.
+pub type VehicleRobot = Robot<f64, JOINTS>;
+
+/// A servicer, checked: physically possible unless its file says otherwise, and a tree.
+#[derive(Debug, Clone)]
+pub struct Vehicle {
+    /// Its name.
+    pub name: String,
+    /// One line for lists and reports.
+    pub summary: String,
+    /// Its dynamics.
+    pub robot: VehicleRobot,
+    /// Names of the moving joints, in the robot's order.
+    pub joint_names: Vec<String>,
+    /// Limits of the moving joints, in the robot's order.
+    pub limits: Vec<JointLimits<f64>>,
+    /// Every link, mount and tool by name: fixed links are frames of the body that carries them.
+    pub frames: Vec<NamedFrame>,
+    /// Names of the frames that are tools, in the order of the file (empty for a URDF).
+    pub tools: Vec<String>,
+    /// Named joint postures.
+    pub postures: Vec<Posture>,
+    /// The ideal attitude actuator, if the file has one.
+    pub attitude_actuator: Option<AttitudeActuator<f64>>,
+    /// What to draw.
+    pub shapes: Vec<Shape>,
+    /// Where its numbers come from, in the order of the file.
+    pub provenance: Vec<Provenance>,
+    /// Warnings and notes of the reading: implausible values, tags not used.
+    pub remarks: Vec<Complaint>,
+}
+
+/// A frame and its name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedFrame {
+    /// Name of the link or tool.
+    pub name: String,
+    /// Where it is fixed.
+    pub frame: Frame<f64>,
+}
+
+/// A named joint posture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Posture {
+    /// Its name.
+    pub name: String,
+    /// Joint positions in the robot's order (rad or m); joints that it does not name are at zero.
+    pub q: Vec<f64>,
+}
+
+/// How sure a number is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Grade {
+    /// In a document that the source names.
+    Published,
+    /// Computed from published numbers, as the source says.
+    Derived,
+    /// Chosen here.
+    Assumed,
+}
+
+/// Where a number, or a block of them, comes from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Provenance {
+    /// What it is about, as a path in the file: `body.bus.mass_kg`.
+    pub of: String,
+    /// How sure it is.
+    pub grade: Grade,
+    /// Document, page, or reasoning.
+    pub source: String,
+}
+
+/// A body's outline, for drawings only.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shape {
+    /// Name of the link.
+    pub link: String,
+    /// Where it is.
+    pub frame: Frame<f64>,
+    /// What it looks like, centred on the frame.
+    pub kind: ShapeKind,
+}
+
+/// Simple outlines.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ShapeKind {
+    /// A box with these edge lengths (m).
+    Box(Vec3<f64>),
+    /// A cylinder along z: radius and length (m).
+    Cylinder {
+        /// Radius (m).
+        radius: f64,
+        /// Length (m).
+        length: f64,
+    },
+    /// A sphere of this radius (m).
+    Sphere(f64),
+}
+
+impl Vehicle {
+    /// The frame of this name.
+    pub fn frame(&self, name: &str) -> Option<Frame<f64>> {
+        self.frames.iter().find(|f| f.name == name).map(|f| f.frame)
+    }
+    /// The number of the joint of this name.
+    pub fn joint(&self, name: &str) -> Option<usize> {
+        self.joint_names.iter().position(|n| n == name)
+    }
+    /// The posture of this name.
+    pub fn posture(&self, name: &str) -> Option<&Posture> {
+        self.postures.iter().find(|p| p.name == name)
+    }
+    /// `X_BF` of a named frame on its body.
+    pub fn pose_on_body(&self, name: &str) -> Option<Pose<f64>> {
+        self.frame(name).map(|f| f.X_BF)
+    }
+}
