@@ -5,8 +5,38 @@
 #![no_std]
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
+mod attitude_held_jacobian;
+mod barycentric_vectors;
+mod cholesky;
+mod energy;
+mod forward_dynamics;
+mod generalized_jacobian;
+mod inverse_dynamics;
+mod jacobian;
+mod kinematics;
+mod mass_matrix;
+mod momentum;
+mod printed_reaction;
+mod reaction;
+mod reaction_null_space;
+mod reduced_inertia;
 mod robot;
 
+pub use attitude_held_jacobian::attitude_held_jacobian;
+pub use barycentric_vectors::{barycentric_vectors, virtual_manipulator};
+pub use cholesky::Cholesky;
+pub use energy::kinetic_energy;
+pub use forward_dynamics::{BaseMode, Dynamics, JointDrive, driven_dynamics, forward_dynamics};
+pub use generalized_jacobian::{generalized_jacobian, velocity_from_momentum};
+pub use inverse_dynamics::{InverseDynamics, bias_force, inverse_dynamics};
+pub use jacobian::{Jacobian, bias_acceleration, jacobian};
+pub use kinematics::{Kinematics, kinematics};
+pub use mass_matrix::{MassMatrix, mass_matrix};
+pub use momentum::{Momentum, base_twist, momentum, momentum_matrix};
+pub use printed_reaction::{PrintedReaction, printed_reaction};
+pub use reaction::{attitude_torque, mount_reaction};
+pub use reaction_null_space::{angular_momentum_per_rate, reaction_null_space};
+pub use reduced_inertia::{ReducedDynamics, attitude_held_dynamics, free_floating_dynamics};
 pub use robot::{
     BodyId, Frame, Generalized, GeneralizedForce, GeneralizedVelocity, Joint, JointKind, Payload,
     PerBody, Robot, RobotError, State,
