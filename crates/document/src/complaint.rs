@@ -40,3 +40,49 @@ pub struct Complaint {
     /// How to mend it, if there is something to say.
     pub help: Option<String>,
 }
+
+impl Source {
+    /// A file's text, to be shared by all complaints about it.
+    pub fn new(path: impl Into<PathBuf>, text: impl Into<String>) -> Arc<Self> {
+        Arc::new(Self { path: path.into(), text: text.into() })
+    }
+}
+
+impl Complaint {
+    /// A complaint about the file as a whole, until it is told the place.
+    pub fn new(severity: Severity, source: &Arc<Source>, message: impl Into<String>) -> Self {
+        Self {
+            severity,
+            message: message.into(),
+            source: Arc::clone(source),
+            span: None,
+            label: String::new(),
+            help: None,
+        }
+    }
+    /// An error about the file as a whole, until it is told the place.
+    pub fn error(source: &Arc<Source>, message: impl Into<String>) -> Self {
+        Self::new(Severity::Error, source, message)
+    }
+    /// A warning about the file as a whole, until it is told the place.
+    pub fn warning(source: &Arc<Source>, message: impl Into<String>) -> Self {
+        Self::new(Severity::Warning, source, message)
+    }
+    /// A note about the file as a whole, until it is told the place.
+    pub fn note(source: &Arc<Source>, message: impl Into<String>) -> Self {
+        Self::new(Severity::Note, source, message)
+    }
+    /// The same, at a byte range of the text, with two or three words under the caret.
+    #[must_use]
+    pub fn at(mut self, span: Range<usize>, label: impl Into<String>) -> Self {
+        self.span = Some(span);
+        self.label = label.into();
+        self
+    }
+    /// The same, with how to mend it.
+    #[must_use]
+    pub fn with_help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+}

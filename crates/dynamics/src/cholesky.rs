@@ -55,13 +55,13 @@ impl<T: Real, const N: usize> Cholesky<T, N> {
         let mut x = *b;
         for i in 0..self.n {
             for k in 0..i {
-                x[i] = x[i] - self.L[i][k] * x[k];
+                x[i] -= self.L[i][k] * x[k];
             }
             x[i] *= self.inverse_diagonal[i];
         }
         for i in (0..self.n).rev() {
             for k in i + 1..self.n {
-                x[i] = x[i] - self.L[k][i] * x[k];
+                x[i] -= self.L[k][i] * x[k];
             }
             x[i] *= self.inverse_diagonal[i];
         }

@@ -34,7 +34,7 @@ pub fn reaction_null_space<T: Real, const J: usize>(
             for e in 0..i {
                 let along = dot(&rows[e], &rows[i]);
                 for j in robot.joints() {
-                    rows[i][j] = rows[i][j] - along * rows[e][j];
+                    rows[i][j] -= along * rows[e][j];
                 }
             }
         }
@@ -47,7 +47,7 @@ pub fn reaction_null_space<T: Real, const J: usize>(
         }
         let along = dot(&rows[i], &rates);
         for j in robot.joints() {
-            rates[j] = rates[j] - along * rows[i][j];
+            rates[j] -= along * rows[i][j];
         }
     }
     rates
