@@ -1,0 +1,212 @@
+//! Links and joints as a tree: every name once, every link with one parent, one root.
+
+use crate::assembly::{AssemblyJoint, Link};
+use crate::findings::Findings;
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// A tree over the links and joints of a file, by their places in its lists.
+#[derive(Debug)]
+pub(crate) struct Tree {
+    /// The link that nothing carries.
+    pub(crate) root: usize,
+    /// Joints in the order of the file, each after the joint that carries its parent.
+    pub(crate) order: Vec<Edge>,
+}
+
+/// A joint and the links that it connects.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Edge {
+    pub(crate) joint: usize,
+    pub(crate) parent: usize,
+    pub(crate) child: usize,
+}
+
+/// The tree, or nothing after complaints about all that keeps it from being one.
+pub(crate) fn tree(links: &[Link], joints: &[AssemblyJoint], found: &mut Findings) -> Option<Tree> {
+    if links.is_empty() {
+        found.error(&(0..0), "the file has no links".into(), "", "a vehicle has at least its base");
+        return None;
+    }
+    let names = first_of_each_name("link", links.iter().map(|l| (&*l.name, &l.at)), found);
+    first_of_each_name("joint", joints.iter().map(|j| (&*j.name, &j.at)), found);
+    let edges: Vec<_> = joints.iter().map(|j| ends(j, &names, found)).collect();
+    let carriers = carriers(links, joints, &edges, found);
+    let looped = complain_of_loops(links, joints, &edges, &carriers, found);
+    // A child that is missing or double leaves another link without parent: one complaint is enough.
+    let all_ends_known = edges.iter().all(|(_, child)| child.is_some());
+    let roots: Vec<_> = names.values().copied().filter(|&l| carriers[l].is_empty()).collect();
+    if roots.len() > 1 && all_ends_known {
+        complain_of_roots(links, roots, found);
+        return None;
+    }
+    let root = names.values().copied().find(|&l| carriers[l].is_empty())?;
+    if looped || names.len() < links.len() || carriers.iter().any(|c| c.len() > 1) {
+        return None;
+    }
+    let edges = edges
+        .iter()
+        .enumerate()
+        .map(|(joint, &(parent, child))| Some(Edge { joint, parent: parent?, child: child? }));
+    Some(Tree { root, order: parents_first(root, edges.collect::<Option<_>>()?) })
+}
+
+/// Places by name; complains of names that are there twice.
+fn first_of_each_name<'a>(
+    kind: &str,
+    named: impl Iterator<Item = (&'a str, &'a Range<usize>)>,
+    found: &mut Findings,
+) -> BTreeMap<&'a str, usize> {
+    let mut first: BTreeMap<&str, (usize, &Range<usize>)> = BTreeMap::new();
+    for (place, (name, at)) in named.enumerate() {
+        if let Some((_, first_at)) = first.get(name) {
+            let line = found.line(first_at.start);
+            let message = format!("two {kind}s are called '{name}'; the other is on line {line}");
+            found.error(at, message, "the second", "give one of them another name");
+        } else {
+            first.insert(name, (place, at));
+        }
+    }
+    first.into_iter().map(|(name, (place, _))| (name, place)).collect()
+}
+
+/// Places of a joint's parent and child link.
+fn ends(
+    joint: &AssemblyJoint,
+    names: &BTreeMap<&str, usize>,
+    found: &mut Findings,
+) -> (Option<usize>, Option<usize>) {
+    let mut place = |role: &str, name: &str, at: &Range<usize>| {
+        let place = names.get(name).copied();
+        if place.is_none() {
+            let message = format!(
+                "joint '{}' has the {role} '{name}', but no link has that name",
+                joint.name
+            );
+            let help = match wrasse_document::closest(name, names.keys().copied()) {
+                Some(close) => format!("did you mean '{close}'?"),
+                None => format!("links are {}", listed(names.keys())),
+            };
+            found.error(at, message, "no such link", &help);
+        }
+        place
+    };
+    (
+        place("parent", &joint.parent, &joint.parent_at),
+        place("child", &joint.child, &joint.child_at),
+    )
+}
+
+/// Up to ten names, in quotes.
+fn listed<'a>(names: impl ExactSizeIterator<Item = &'a &'a str>) -> String {
+    let more = if names.len() > 10 { ", …" } else { "" };
+    let shown: Vec<_> = names.take(10).map(|n| format!("'{n}'")).collect();
+    shown.join(", ") + more
+}
+
+/// The joints that carry each link; complains of links that more than one carries.
+fn carriers(
+    links: &[Link],
+    joints: &[AssemblyJoint],
+    edges: &[(Option<usize>, Option<usize>)],
+    found: &mut Findings,
+) -> Vec<Vec<usize>> {
+    let mut carriers: Vec<Vec<usize>> = vec![Vec::new(); links.len()];
+    for (j, (_, child)) in edges.iter().enumerate() {
+        let Some(child) = *child else { continue };
+        if let Some(&other) = carriers[child].first() {
+            let (link, other) = (&links[child].name, &joints[other]);
+            let message = format!(
+                "link '{link}' is the child of '{}' and already of '{}' on line {}",
+                joints[j].name,
+                other.name,
+                found.line(other.child_at.start)
+            );
+            let help = "a vehicle is a tree: each link hangs on one joint";
+            found.error(&joints[j].child_at, message, "a second parent", help);
+        }
+        carriers[child].push(j);
+    }
+    carriers
+}
+
+/// Follows each link towards the root; one complaint for each ring that it runs into.
+fn complain_of_loops(
+    links: &[Link],
+    joints: &[AssemblyJoint],
+    edges: &[(Option<usize>, Option<usize>)],
+    carriers: &[Vec<usize>],
+    found: &mut Findings,
+) -> bool {
+    // The joint above a link; a link with two parents has had its complaint.
+    let above = |link: usize| match carriers[link][..] {
+        [joint] => Some((joint, edges[joint].0?)),
+        _ => None,
+    };
+    let mut seen_from = vec![None; links.len()];
+    let mut looped = false;
+    for start in 0..links.len() {
+        let mut at = start;
+        while seen_from[at].is_none() {
+            seen_from[at] = Some(start);
+            let Some((joint, parent)) = above(at) else { break };
+            if seen_from[parent] == Some(start) {
+                looped = true;
+                let ring = ring_through(parent, above, links);
+                let message = format!("joint '{}' closes a loop: {ring}", joints[joint].name);
+                let help = "a vehicle is a tree that hangs on one root; \
+                            closed chains are not supported";
+                found.error(&joints[joint].parent_at, message, "back to where it came from", help);
+            }
+            at = parent;
+        }
+    }
+    looped
+}
+
+/// The names along a ring, base to tip, first and last the same.
+fn ring_through(
+    start: usize,
+    above: impl Fn(usize) -> Option<(usize, usize)>,
+    links: &[Link],
+) -> String {
+    let mut names = vec![&*links[start].name];
+    let mut at = start;
+    while let Some((_, parent)) = above(at) {
+        names.push(&links[parent].name);
+        at = parent;
+        if at == start {
+            break;
+        }
+    }
+    names.reverse();
+    names.join(" → ")
+}
+
+/// One complaint for each root after the first.
+fn complain_of_roots(links: &[Link], mut roots: Vec<usize>, found: &mut Findings) {
+    roots.sort_unstable();
+    let first = &links[roots[0]];
+    for &other in &roots[1..] {
+        let message = format!(
+            "links '{}' (line {}) and '{}' both have no parent: a vehicle has one root",
+            first.name,
+            found.line(first.at.start),
+            links[other].name
+        );
+        let help = "connect one of them to the rest with a joint";
+        found.error(&links[other].at, message, "a second root", help);
+    }
+}
+
+/// Keeps the order of the file, but no joint comes before the one that carries its parent.
+fn parents_first(root: usize, mut waiting: Vec<Edge>) -> Vec<Edge> {
+    let mut order: Vec<Edge> = Vec::with_capacity(waiting.len());
+    let mut placed = vec![root];
+    while let Some(next) = waiting.iter().position(|e| placed.contains(&e.parent)) {
+        let edge = waiting.remove(next);
+        placed.push(edge.child);
+        order.push(edge);
+    }
+    order
+}
