@@ -1,0 +1,150 @@
+//! A TOML document as a tree whose every value knows where it stands.
+
+use crate::{Complaint, Source};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::Arc;
+use toml::de::{DeTable, DeValue};
+
+/// A value and its place.
+#[derive(Debug, Clone)]
+pub(crate) struct Positioned {
+    /// Byte range of the value; of the header for a table that has one.
+    pub(crate) span: Range<usize>,
+    pub(crate) value: Value,
+}
+
+/// Keys in alphabetical order: results do not depend on the order of the file.
+pub(crate) type Table = BTreeMap<String, Entry>;
+
+/// A value and the key before it.
+#[derive(Debug, Clone)]
+pub(crate) struct Entry {
+    pub(crate) key_span: Range<usize>,
+    pub(crate) item: Positioned,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) enum Value {
+    String(String),
+    Integer(i64),
+    Float(f64),
+    Boolean(bool),
+    Datetime(toml::value::Datetime),
+    Array(Vec<Positioned>),
+    Table(Table),
+}
+
+impl Value {
+    /// What it is, in words.
+    pub(crate) fn kind(&self) -> &'static str {
+        match self {
+            Self::String(_) => "a string",
+            Self::Integer(_) => "an integer",
+            Self::Float(_) => "a number",
+            Self::Boolean(_) => "a true or false",
+            Self::Datetime(_) => "a date",
+            Self::Array(_) => "a list",
+            Self::Table(_) => "a table",
+        }
+    }
+}
+
+/// The positioned tree of a text, or all that keeps it from being TOML.
+pub(crate) fn parse(source: &Arc<Source>) -> Result<Table, Vec<Complaint>> {
+    let (table, errors) = DeTable::parse_recoverable(&source.text);
+    let mut complaints = syntax_complaints(source, &errors);
+    if complaints.is_empty() {
+        let tree = table_of(source, table.get_ref(), &mut complaints);
+        if complaints.is_empty() {
+            return Ok(tree);
+        }
+    }
+    Err(complaints)
+}
+
+/// One complaint for each line: what follows on the same line follows from the first.
+fn syntax_complaints(source: &Arc<Source>, errors: &[toml::de::Error]) -> Vec<Complaint> {
+    let mut seen = Vec::new();
+    let mut complaints = Vec::new();
+    for error in errors {
+        let span = error.span();
+        let line = span.as_ref().map(|s| {
+            let end = s.start.min(source.text.len());
+            source.text.bytes().take(end).filter(|b| *b == b'\n').count()
+        });
+        if seen.contains(&line) {
+            continue;
+        }
+        seen.push(line);
+        let complaint = Complaint::error(source, format!("not TOML: {}", error.message()));
+        complaints.push(match span {
+            Some(span) => complaint.at(span, "here"),
+            None => complaint,
+        });
+    }
+    complaints
+}
+
+fn table_of(source: &Arc<Source>, table: &DeTable<'_>, complaints: &mut Vec<Complaint>) -> Table {
+    let entry =
+        |(key, item): (&toml::Spanned<toml::de::DeString<'_>>, &toml::Spanned<DeValue<'_>>)| {
+            let item = positioned(source, item, complaints);
+            (key.get_ref().to_string(), Entry { key_span: key.span(), item })
+        };
+    table.iter().map(entry).collect()
+}
+
+fn positioned(
+    source: &Arc<Source>,
+    item: &toml::Spanned<DeValue<'_>>,
+    complaints: &mut Vec<Complaint>,
+) -> Positioned {
+    let value = match item.get_ref() {
+        DeValue::String(text) => Value::String(text.to_string()),
+        DeValue::Integer(digits) => Value::Integer(
+            i64::from_str_radix(digits.as_str(), digits.radix()).unwrap_or_else(|_| {
+                let complaint = Complaint::error(source, "integer beyond the range of 64 bits");
+                complaints.push(complaint.at(item.span(), "too large"));
+                0
+            }),
+        ),
+        DeValue::Float(digits) => Value::Float(digits.as_str().parse().unwrap_or(f64::NAN)),
+        DeValue::Boolean(flag) => Value::Boolean(*flag),
+        DeValue::Datetime(date) => Value::Datetime(*date),
+        DeValue::Array(items) => {
+            Value::Array(items.iter().map(|i| positioned(source, i, complaints)).collect())
+        }
+        DeValue::Table(table) => Value::Table(table_of(source, table, complaints)),
+    };
+    Positioned { span: item.span(), value }
+}
+
+/// `over` laid over `base`: tables merge key by key, everything else is replaced.
+pub(crate) fn lay_over(base: &mut Table, over: &Table) {
+    for (key, entry) in over {
+        match (base.get_mut(key).map(|e| &mut e.item.value), &entry.item.value) {
+            (Some(Value::Table(below)), Value::Table(above)) => lay_over(below, above),
+            _ => {
+                base.insert(key.clone(), entry.clone());
+            }
+        }
+    }
+}
+
+/// The same tree without positions, for serde.
+pub(crate) fn without_positions(table: &Table) -> toml::Table {
+    table.iter().map(|(key, entry)| (key.clone(), bare(&entry.item.value))).collect()
+}
+
+fn bare(value: &Value) -> toml::Value {
+    match value {
+        Value::String(text) => toml::Value::String(text.clone()),
+        Value::Integer(number) => toml::Value::Integer(*number),
+        Value::Float(number) => toml::Value::Float(*number),
+        Value::Boolean(flag) => toml::Value::Boolean(*flag),
+        Value::Datetime(date) => toml::Value::Datetime(*date),
+        Value::Array(items) => toml::Value::Array(items.iter().map(|i| bare(&i.value)).collect()),
+        Value::Table(table) => toml::Value::Table(without_positions(table)),
+    }
+}
