@@ -7,10 +7,17 @@ mod figures;
 mod findings;
 mod physical;
 mod plausible;
+mod read_urdf;
+mod read_vehicle;
 mod roll_pitch_yaw;
 mod tree;
+mod urdf_element;
+mod urdf_joint;
+mod urdf_link;
+mod urdf_numbers;
 mod vehicle;
 
+pub use read_vehicle::read_vehicle;
 pub use vehicle::{
     Grade, JOINTS, NamedFrame, Posture, Provenance, Shape, ShapeKind, Vehicle, VehicleRobot,
 };

@@ -56,6 +56,10 @@ fn check_finite(link: &Link, matter: &Matter, found: &mut Findings) -> bool {
     checks.iter().all(|&(_, _, finite)| finite)
 }
 
+/// What the triangle inequality may be broken by, as a part of the largest moment (–): a thin rod
+/// meets it with equality, and its file rounds each number on its own.
+const ROUND_OFF: f64 = 1e-9;
+
 /// What a central inertia breaks, and how to mend it.
 fn wrong_with_inertia(name: &str, inertia: Sym3<f64>) -> Option<(String, &'static str)> {
     let moments = principal_moments(inertia);
@@ -70,8 +74,6 @@ fn wrong_with_inertia(name: &str, inertia: Sym3<f64>) -> Option<(String, &'stati
                     check the signs of the products of inertia";
         return Some((message, help));
     }
-    // A thin rod meets the inequality with equality; its file rounds each number on its own.
-    const ROUND_OFF: f64 = 1e-9;
     (c > (a + b) * (1.0 + ROUND_OFF)).then(|| {
         let message = format!(
             "inertia of '{name}' breaks the triangle inequality: of its principal moments {shown} \
@@ -81,6 +83,10 @@ fn wrong_with_inertia(name: &str, inertia: Sym3<f64>) -> Option<(String, &'stati
         (message, "no rigid body is like this: is the inertia about the centre of mass?")
     })
 }
+
+/// When to give up on eigenvalues: nalgebra goes on until it converges unless told; a 3×3 takes
+/// about ten steps.
+const MOST_ITERATIONS: usize = 100;
 
 /// Principal moments of a symmetric, finite matrix, smallest first.
 pub(crate) fn principal_moments(I: Sym3<f64>) -> [f64; 3] {
@@ -93,8 +99,6 @@ pub(crate) fn principal_moments(I: Sym3<f64>) -> [f64; 3] {
 }
 
 fn eigenvalues(I: Sym3<f64>) -> Option<[f64; 3]> {
-    // nalgebra iterates until it converges unless told when to stop; a 3×3 takes about ten.
-    const MOST_ITERATIONS: usize = 100;
     let matrix = Matrix3::new(I.xx, I.xy, I.xz, I.xy, I.yy, I.yz, I.xz, I.yz, I.zz);
     let eigen = SymmetricEigen::try_new(matrix, f64::EPSILON, MOST_ITERATIONS)?;
     Some(eigen.eigenvalues.into())

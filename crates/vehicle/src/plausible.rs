@@ -17,6 +17,8 @@ const SMALLEST_GYRATION: f64 = 1e-3;
 const OSMIUM: f64 = 22_590.0;
 /// Smallest mass of a moving body that is believed, as a part of the whole (–).
 const SMALLEST_MASS: f64 = 1e-6;
+/// What is thinner than this (m) is an idealisation, not a mistake.
+const THIN: f64 = 1e-4;
 /// Two turns (rad): what lies beyond was meant in degrees, or is no limit.
 const TWO_TURNS: f64 = 4.0 * core::f64::consts::PI;
 
@@ -59,8 +61,6 @@ fn density(matter: &Matter, [a, b, c]: [f64; 3]) -> f64 {
     // Semi-axes from I_x = m (y² + z²)/5.
     let square = |sum: f64| (2.5 * sum / matter.mass).max(0.0);
     let product = square(b + c - a) * square(c + a - b) * square(a + b - c);
-    // Thinner than a tenth of a millimetre is an idealisation, not a mistake.
-    const THIN: f64 = 1e-4;
     if square(a + b - c).sqrt() < THIN {
         return 0.0;
     }

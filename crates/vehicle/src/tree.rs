@@ -58,7 +58,8 @@ fn first_of_each_name<'a>(
     found: &mut Findings,
 ) -> BTreeMap<&'a str, usize> {
     let mut first: BTreeMap<&str, (usize, &Range<usize>)> = BTreeMap::new();
-    for (place, (name, at)) in named.enumerate() {
+    // A missing name has had its complaint, and is empty.
+    for (place, (name, at)) in named.enumerate().filter(|(_, (name, _))| !name.is_empty()) {
         if let Some((_, first_at)) = first.get(name) {
             let line = found.line(first_at.start);
             let message = format!("two {kind}s are called '{name}'; the other is on line {line}");
@@ -78,7 +79,7 @@ fn ends(
 ) -> (Option<usize>, Option<usize>) {
     let mut place = |role: &str, name: &str, at: &Range<usize>| {
         let place = names.get(name).copied();
-        if place.is_none() {
+        if place.is_none() && !name.is_empty() {
             let message = format!(
                 "joint '{}' has the {role} '{name}', but no link has that name",
                 joint.name
