@@ -2,6 +2,10 @@
 //! `std`: the flight code and the simulated world read the same numbers.
 #![no_std]
 
+mod set_point;
+
+pub use set_point::{SetPoint, SetPointMotion};
+
 /// What a joint and its drive can do. `None`: not limited, or not known.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct JointLimits<T> {

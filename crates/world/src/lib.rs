@@ -1,1 +1,23 @@
 //! Simulated truth: motion of the bodies, drives and actuators as they behave, the ledger.
+//!
+//! The state is attitude, joints, centre of mass and total momentum in inertial axes; the base's
+//! twist follows from them. So only an outside wrench or the attitude actuator can change momentum,
+//! at any step size. The ledger never reads that state: it sums the bodies one by one.
+#![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
+
+mod flow;
+mod free_body;
+mod grasp;
+mod ledger;
+mod rates;
+mod stepper;
+mod world;
+
+pub use flow::Flow;
+pub use free_body::FreeBody;
+pub use grasp::GraspRefused;
+pub use ledger::{Account, Ledger};
+pub use stepper::{Displacement, Stepper, dormand_prince, runge_kutta_4};
+pub use world::{
+    BaseAttitude, Drive, NonFinite, OutsideWrench, Saturation, SystemState, World, WorldSetup,
+};

@@ -1,0 +1,122 @@
+//! The right-hand side: how fast everything changes, given what drives it.
+
+use crate::flow::Flow;
+use crate::world::{BaseAttitude, Drive, SystemState, World};
+use wrasse_dynamics::{
+    BaseMode, BodyId, Dynamics, JointDrive, Kinematics, PerBody, State, driven_dynamics, kinematics,
+};
+use wrasse_spatial::{
+    Pose, SpatialForce, SpatialInertia, SpatialMomentum, SpatialVelocity, Vec3,
+    rotation_vector_rate,
+};
+
+/// Inertia of the whole system with joints locked, about Bo in base axes, and the momentum of the
+/// joint rates alone: from kinematics with the base at rest in the origin.
+fn locked<const J: usize>(
+    k: &Kinematics<'_, f64, J>,
+) -> (SpatialInertia<f64>, SpatialMomentum<f64>) {
+    let (mut M, mut h) = (SpatialInertia::zero(), SpatialForce::zero());
+    for body in k.robot.bodies() {
+        let (X_NB, M_B) = (&k.X_NB[body], k.robot.inertia(body));
+        M += X_NB.inertia_to_parent(M_B);
+        h += X_NB.force_to_parent(&(*M_B * k.V_NB_B[body]));
+    }
+    (M, h)
+}
+
+impl<const J: usize> World<J> {
+    /// Pose and twist of the base and the joints' state that a system state means, at `t` (s) into
+    /// the current set-points.
+    pub(crate) fn expand(&self, system: &SystemState<J>, t: f64) -> State<f64, J> {
+        let mut state = State { q: system.q, v: system.v, ..State::default() };
+        for j in self.robot.joints() {
+            if let Drive::Follow(motion) = &self.drives[j] {
+                let set_point = motion.at(t);
+                (state.q[j], state.v[j]) = (set_point.position, set_point.rate);
+            }
+        }
+        let (M, h_of_rates) = locked(&kinematics(&self.robot, &state));
+        let R_NB = system.quat_NB.to_matrix();
+        let p_BScm_B = M.centre_of_mass();
+        let linear_B = R_NB.transpose_mul(system.linear);
+        state.V_NB_B = match self.base {
+            BaseAttitude::Held => {
+                SpatialVelocity::new(Vec3::zero(), (linear_B - h_of_rates.force) * (1.0 / M.mass))
+            }
+            BaseAttitude::Free | BaseAttitude::Controlled => {
+                let about_cm = SpatialForce::new(R_NB.transpose_mul(system.angular), linear_B);
+                M.velocity_of(&(about_cm.about(-p_BScm_B) - h_of_rates))
+            }
+        };
+        state.X_NB = Pose::new(R_NB, system.p_NScm_N - R_NB * p_BScm_B);
+        state
+    }
+
+    /// Accelerations and forces at a state, with the drives as they are at `t` (s).
+    pub(crate) fn dynamics_at(
+        &self,
+        k: &Kinematics<'_, f64, J>,
+        t: f64,
+        outside: &PerBody<SpatialForce<f64>, J>,
+    ) -> Dynamics<f64, J> {
+        let drives = core::array::from_fn(|j| match &self.drives[j] {
+            Drive::Follow(motion) => JointDrive::Acceleration(motion.at(t).acceleration),
+            Drive::Effort(tau) => JointDrive::Effort(*tau),
+        });
+        let mut on_bodies = *outside;
+        on_bodies.base.torque += self.actuator_torque_B;
+        let mode = match self.base {
+            BaseAttitude::Held => BaseMode::AttitudeHeld,
+            BaseAttitude::Free | BaseAttitude::Controlled => BaseMode::Free,
+        };
+        driven_dynamics(k, &drives, mode, &on_bodies)
+    }
+
+    /// Rates of the flow at displacement `d`, `t` (s) into the step that began `t0` (s) into the
+    /// current set-points.
+    pub(crate) fn rates(&self, t0: f64, t: f64, d: &Flow<J>) -> Flow<J> {
+        let state = self.expand(&self.system.displaced(d), t0 + t);
+        let k = kinematics(&self.robot, &state);
+        let outside = self.outside_wrench(t0 + t);
+        let found = self.dynamics_at(&k, t0 + t, &outside);
+        let (R_NB, w) = (state.X_NB.rotation, state.V_NB_B.angular);
+        let torque_B = found.force.base.torque + self.actuator_torque_B;
+        let (force, torque) = about_centre_of_mass(&k, &outside, self.system.displaced(d).p_NScm_N);
+        let torque_N = R_NB * torque_B;
+        let mut work = Vec3 { x: 0.0, y: torque_B.dot(w), z: 0.0 };
+        for j in self.robot.joints() {
+            work.x += found.force.joints[j] * state.v[j];
+        }
+        for body in self.robot.bodies() {
+            work.z += k.V_NB_B[body].power(&outside[body]);
+        }
+        Flow {
+            turn: rotation_vector_rate(d.turn, w),
+            q: state.v,
+            v: found.nudot.joints,
+            p_NScm_N: (self.system.linear + d.linear) * (1.0 / self.mass),
+            linear: force,
+            angular: torque_N + torque,
+            from_actuator: torque_N,
+            from_outside: torque,
+            work,
+        }
+    }
+}
+
+/// Outside force (N) and its torque about the centre of mass (N·m), inertial axes.
+fn about_centre_of_mass<const J: usize>(
+    k: &Kinematics<'_, f64, J>,
+    outside: &PerBody<SpatialForce<f64>, J>,
+    p_NScm_N: Vec3<f64>,
+) -> (Vec3<f64>, Vec3<f64>) {
+    let (mut force, mut torque) = (Vec3::zero(), Vec3::zero());
+    let mut add = |body: BodyId| {
+        let X_NB = &k.X_NB[body];
+        let f = X_NB.rotation * outside[body].force;
+        force += f;
+        torque += X_NB.rotation * outside[body].torque + (X_NB.translation - p_NScm_N).cross(f);
+    };
+    k.robot.bodies().for_each(&mut add);
+    (force, torque)
+}
