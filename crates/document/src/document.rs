@@ -71,9 +71,15 @@ impl Document {
         path: impl Into<PathBuf>,
         text: impl Into<String>,
     ) -> Result<Self, Vec<Complaint>> {
-        let source = Source::new(path, text);
-        let root = positioned::parse(&source)?;
-        Ok(Self { source, root })
+        Self::of(&Source::new(path, text))
+    }
+    /// The document of a text that is already a source.
+    ///
+    /// # Errors
+    /// Every place where the text is not TOML.
+    pub fn of(source: &Arc<Source>) -> Result<Self, Vec<Complaint>> {
+        let root = positioned::parse(source)?;
+        Ok(Self { source: Arc::clone(source), root })
     }
     /// The text and its path.
     pub fn source(&self) -> &Arc<Source> {
@@ -103,6 +109,15 @@ impl Document {
     /// Byte range of the key at a path; of the value where it is in a list.
     pub fn key_span(&self, path: &[Step<'_>]) -> Option<Range<usize>> {
         self.find(path).map(|place| place.key_span.unwrap_or(place.item.span.clone()))
+    }
+    /// Keys of the table at a path, in alphabetical order; none if there is no table.
+    pub fn keys(&self, path: &[Step<'_>]) -> Vec<&str> {
+        let table = match self.exact(path).map(|item| &item.value) {
+            Some(Value::Table(table)) => table,
+            None if path.is_empty() => &self.root,
+            _ => return vec![],
+        };
+        table.keys().map(String::as_str).collect()
     }
     /// An error about the value at a path.
     pub fn error(

@@ -191,6 +191,9 @@ fn a_path_finds_its_place_or_the_nearest_above() {
     assert_eq!(at(at!["elsewhere"]), None);
     let key = document.key_span(at!["body", 0, "mass_kg"]).map(|s| &text[s]);
     assert_eq!(key, Some("mass_kg"));
+    assert_eq!(document.keys(at!["body", 0]), ["mass_kg", "name"]);
+    assert_eq!(document.keys(at![]), ["body", "name"]);
+    assert!(document.keys(at!["name"]).is_empty());
 }
 
 #[test]

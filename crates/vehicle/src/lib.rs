@@ -3,13 +3,21 @@
 
 mod assemble;
 mod assembly;
+mod denavit_hartenberg;
 mod figures;
 mod findings;
+mod format;
 mod physical;
 mod plausible;
+mod provenance;
+mod read_toml;
 mod read_urdf;
 mod read_vehicle;
 mod roll_pitch_yaw;
+mod rotation_in_degrees;
+mod toml_body;
+mod toml_joint;
+mod toml_reading;
 mod tree;
 mod urdf_element;
 mod urdf_joint;
@@ -17,6 +25,7 @@ mod urdf_link;
 mod urdf_numbers;
 mod vehicle;
 
+pub use read_toml::vehicle_schema;
 pub use read_vehicle::read_vehicle;
 pub use vehicle::{
     Grade, JOINTS, NamedFrame, Posture, Provenance, Shape, ShapeKind, Vehicle, VehicleRobot,

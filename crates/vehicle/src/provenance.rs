@@ -1,0 +1,105 @@
+//! Where the numbers of a TOML vehicle file come from, and which do not say.
+
+use crate::format::SourceFile;
+use crate::toml_reading::{Reading, under};
+use crate::vehicle::{Grade, Provenance};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use wrasse_document::{Step, closest};
+
+/// Keys of a block that hold numbers about the vehicle.
+const NUMBERS: [&str; 18] = [
+    "mass_kg",
+    "centre_of_mass_m",
+    "inertia_kgm2",
+    "position_m",
+    "orientation",
+    "axis",
+    "travel_deg",
+    "travel_m",
+    "rate_deg_s",
+    "rate_m_s",
+    "effort_nm",
+    "effort_n",
+    "mount",
+    "row",
+    "joints_deg",
+    "joints_m",
+    "torque_limit_nm",
+    "momentum_limit_nms",
+];
+
+/// How many blocks without source a warning names.
+const NAMED: usize = 6;
+
+/// Rows for the report, and blocks that do not say where their numbers come from.
+#[derive(Debug, Default)]
+pub(crate) struct Sources {
+    /// In the order of the file's kinds of blocks.
+    pub(crate) rows: Vec<Provenance>,
+    without: Vec<(String, Range<usize>)>,
+    /// Whether the file has a source for all that have none.
+    covered: bool,
+}
+
+impl Sources {
+    /// With the source of the whole file, if it has one.
+    pub(crate) fn new(whole: Option<&SourceFile>) -> Self {
+        let mut sources = Self { covered: whole.is_some(), ..Self::default() };
+        sources.rows.extend(whole.map(|source| row("all else", source)));
+        sources
+    }
+    /// A block that is called `of` in reports, its source, and those of its single numbers.
+    pub(crate) fn block(
+        &mut self,
+        reading: &mut Reading<'_>,
+        path: &[Step<'_>],
+        of: &str,
+        source: Option<&SourceFile>,
+        source_of: &BTreeMap<String, SourceFile>,
+    ) {
+        self.rows.extend(source.map(|source| row(of, source)));
+        let keys = reading.document.keys(path);
+        let numbers: Vec<_> = keys.into_iter().filter(|key| NUMBERS.contains(key)).collect();
+        for (key, source) in source_of {
+            if numbers.contains(&key.as_str()) {
+                self.rows.push(row(&format!("{of}.{key}"), source));
+            } else {
+                let message = format!("{of} has no number `{key}` that could have a source");
+                let help = match closest(key, numbers.iter().copied()) {
+                    Some(meant) => format!("did you mean `{meant}`?"),
+                    None => format!("its numbers are {}", numbers.join(", ")),
+                };
+                let path = under(&under(path, "source_of"), key);
+                reading.wrong_key(&path, message, "no such number", &help);
+            }
+        }
+        let all_sourced = numbers.iter().all(|key| source_of.contains_key(*key));
+        if source.is_none() && !self.covered && !all_sourced {
+            self.without.push((of.to_owned(), reading.at(path)));
+        }
+    }
+    /// One warning for all blocks without source.
+    pub(crate) fn warn(&self, reading: &mut Reading<'_>) {
+        let Some((_, first)) = self.without.first() else { return };
+        let names: Vec<_> = self.without.iter().map(|(of, _)| of.as_str()).take(NAMED).collect();
+        let more = match self.without.len().saturating_sub(NAMED) {
+            0 => String::new(),
+            more => format!(" and {more} more"),
+        };
+        let message =
+            format!("nothing says where these numbers come from: {}{more}", names.join(", "));
+        let help = "write source.published, source.derived or source.assumed = \"…\" in each \
+                    block, or once at the top of the file";
+        reading.found.warning(first, message, "the first of them", help);
+    }
+}
+
+fn row(of: &str, source: &SourceFile) -> Provenance {
+    let (grade, text) = match source {
+        SourceFile::Published(text) => (Grade::Published, text),
+        SourceFile::Derived(text) => (Grade::Derived, text),
+        SourceFile::Assumed(text) => (Grade::Assumed, text),
+    };
+    Provenance { of: of.to_owned(), grade, source: text.clone() }
+}

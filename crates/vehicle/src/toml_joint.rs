@@ -1,0 +1,126 @@
+//! Joints of a TOML vehicle file, and what they can do.
+
+use crate::assembly::AssemblyJoint;
+use crate::format::{JointFile, KindFile, LimitsFile};
+use crate::toml_reading::{Reading, under};
+use wrasse_document::Step;
+use wrasse_dynamics::JointKind;
+use wrasse_hardware::JointLimits;
+use wrasse_spatial::{Vec3, vec3};
+
+/// How the joint moves; `None` if it does not.
+pub(crate) fn moving(kind: KindFile) -> Option<JointKind> {
+    match kind {
+        KindFile::Revolute | KindFile::Continuous => Some(JointKind::Revolute),
+        KindFile::Prismatic => Some(JointKind::Prismatic),
+        KindFile::Fixed => None,
+    }
+}
+
+/// A joint given by the pose of its child.
+pub(crate) fn joint(
+    reading: &mut Reading<'_>,
+    path: &[Step<'_>],
+    file: &JointFile,
+) -> AssemblyJoint {
+    let below = |key| reading.below(path, key);
+    let (at, parent_at, child_at) = (below("name"), below("parent"), below("child"));
+    let (axis_at, limits_at) = (below("axis"), below(limits_key(&file.limits)));
+    AssemblyJoint {
+        name: file.name.clone(),
+        at,
+        parent: file.parent.clone(),
+        parent_at,
+        child: file.child.clone(),
+        child_at,
+        kind: moving(file.kind),
+        X_PC: reading.pose(path, file.position_m, file.orientation.as_ref()),
+        axis: axis(reading, path, file),
+        axis_at,
+        limits: limits(reading, path, &file.name, file.kind, &file.limits),
+        limits_at,
+    }
+}
+
+fn axis(reading: &mut Reading<'_>, path: &[Step<'_>], file: &JointFile) -> Vec3<f64> {
+    match (file.axis, moving(file.kind)) {
+        (Some(axis), Some(_)) => Vec3::from_array(axis),
+        (None, None) => vec3(0.0, 0.0, 1.0),
+        (None, Some(_)) => {
+            let message = format!("joint '{}' has no `axis`", file.name);
+            let help = "`axis` is the direction of the axis in the child's frame: axis = [0, 0, 1]";
+            reading.error(path, message, "`axis` is missing", help);
+            vec3(0.0, 0.0, 1.0)
+        }
+        (Some(_), None) => {
+            let message = format!("joint '{}' is fixed, and has an axis", file.name);
+            reading.wrong_key(&under(path, "axis"), message, "no axis", "leave it out");
+            vec3(0.0, 0.0, 1.0)
+        }
+    }
+}
+
+/// The key that stands for the limits of a joint: its travel, if it has any.
+pub(crate) fn limits_key(limits: &LimitsFile) -> &'static str {
+    let keys = ["travel_deg", "travel_m", "rate_deg_s", "rate_m_s", "effort_nm", "effort_n"];
+    let there = given(limits);
+    keys.into_iter().find(|key| there.contains(key)).unwrap_or("kind")
+}
+
+/// Keys of the limits that are given.
+fn given(limits: &LimitsFile) -> Vec<&'static str> {
+    let keys = [
+        ("travel_deg", limits.travel_deg.is_some()),
+        ("travel_m", limits.travel_m.is_some()),
+        ("rate_deg_s", limits.rate_deg_s.is_some()),
+        ("rate_m_s", limits.rate_m_s.is_some()),
+        ("effort_nm", limits.effort_nm.is_some()),
+        ("effort_n", limits.effort_n.is_some()),
+    ];
+    keys.into_iter().filter(|(_, there)| *there).map(|(key, _)| key).collect()
+}
+
+/// What a joint can do, in SI; complains of limits that do not belong to its kind.
+pub(crate) fn limits(
+    reading: &mut Reading<'_>,
+    path: &[Step<'_>],
+    name: &str,
+    kind: KindFile,
+    file: &LimitsFile,
+) -> JointLimits<f64> {
+    let (does, allowed, travel): (_, &[&str], _) = match kind {
+        KindFile::Revolute => {
+            ("turns", &["travel_deg", "rate_deg_s", "effort_nm"], Some("travel_deg"))
+        }
+        KindFile::Continuous => ("turns without end", &["rate_deg_s", "effort_nm"], None),
+        KindFile::Prismatic => ("slides", &["travel_m", "rate_m_s", "effort_n"], Some("travel_m")),
+        KindFile::Fixed => ("is fixed", &[], None),
+    };
+    for key in given(file).into_iter().filter(|key| !allowed.contains(key)) {
+        let message = format!("joint '{name}' {does}, and has `{key}`");
+        let stem = key.split('_').next();
+        let help = match allowed.iter().find(|other| other.split('_').next() == stem) {
+            Some(other) => format!("write `{other}`"),
+            None if kind == KindFile::Continuous => "a joint with limits is \"revolute\"".into(),
+            None => "leave it out".into(),
+        };
+        reading.wrong_key(&under(path, key), message, "not for this kind", &help);
+    }
+    if let Some(key) = travel.filter(|key| !given(file).contains(key)) {
+        let message = format!("joint '{name}' {does}, and has no `{key}`");
+        let help = match kind {
+            KindFile::Revolute => "a joint without limits is \"continuous\"",
+            _ => "say how far it slides: travel_m = [0, 0.5]",
+        };
+        reading.error(&under(path, "kind"), message, "how far?", help);
+    }
+    JointLimits {
+        travel: file
+            .travel_deg
+            .map(|ends| ends.map(f64::to_radians))
+            .or(file.travel_m)
+            .map(|[lower, upper]| (lower, upper)),
+        rate: file.rate_deg_s.map(f64::to_radians).or(file.rate_m_s),
+        effort: file.effort_nm.or(file.effort_n),
+    }
+}
