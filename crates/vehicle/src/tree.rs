@@ -33,15 +33,21 @@ pub(crate) fn tree(links: &[Link], joints: &[AssemblyJoint], found: &mut Finding
     let edges: Vec<_> = joints.iter().map(|j| ends(j, &names, found)).collect();
     let carriers = carriers(links, joints, &edges, found);
     let looped = complain_of_loops(links, joints, &edges, &carriers, found);
-    // A child that is missing or double leaves another link without parent: one complaint is enough.
-    let all_ends_known = edges.iter().all(|(_, child)| child.is_some());
+    // A child that is not known, or known twice, leaves another link without parent: one complaint
+    // is enough.
+    let unknown = edges.iter().filter(|(_, child)| child.is_none()).count();
+    let double: usize = carriers.iter().map(|c| c.len().saturating_sub(1)).sum();
     let roots: Vec<_> = names.values().copied().filter(|&l| carriers[l].is_empty()).collect();
-    if roots.len() > 1 && all_ends_known {
+    if roots.len() > 1 + unknown + double {
         complain_of_roots(links, roots, found);
         return None;
     }
-    let root = names.values().copied().find(|&l| carriers[l].is_empty())?;
-    if looped || names.len() < links.len() || carriers.iter().any(|c| c.len() > 1) {
+    let root = *roots.first()?;
+    if looped
+        || roots.len() > 1
+        || names.len() < links.len()
+        || carriers.iter().any(|c| c.len() > 1)
+    {
         return None;
     }
     let edges = edges
@@ -150,8 +156,9 @@ fn complain_of_loops(
         let mut at = start;
         while seen_from[at].is_none() {
             seen_from[at] = Some(start);
-            let Some((joint, parent)) = above(at) else { break };
-            if seen_from[parent] == Some(start) {
+            let Some((_, parent)) = above(at) else { break };
+            let closing = above(parent).filter(|_| seen_from[parent] == Some(start));
+            if let Some((joint, _)) = closing {
                 looped = true;
                 let ring = ring_through(parent, above, links);
                 let message = format!("joint '{}' closes a loop: {ring}", joints[joint].name);
