@@ -2,4 +2,26 @@
 #![no_std]
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
+pub mod inverse_kinematics;
 pub mod trajectory;
+
+mod attitude_control;
+mod computed_torque;
+mod computer;
+mod door;
+mod feedforward;
+mod law;
+mod phase;
+mod resolved_motion;
+
+pub use attitude_control::attitude_torque;
+pub use computed_torque::computed_torque;
+pub use computer::{BadPhase, FlightComputer, Setup};
+pub use door::{Axes, Command, Grip, Sensed};
+pub use feedforward::feedforward_torque;
+pub use law::{ArmLaw, Feedforward, Measurement, Task, Tuning};
+pub use phase::{Held, JointTiming, PHASES, Phase, Target, Timing};
+pub use resolved_motion::{
+    Assignment, Belief, Redundancy, Resolved, ResolvedMotion, WantedMotion, answered_motion,
+    joint_rates, resolved_motion, task_jacobian,
+};

@@ -1,0 +1,407 @@
+//! The flight computer: which phase, where the tool should be, what the actuators are told.
+
+use crate::attitude_control::attitude_torque;
+use crate::computed_torque::computed_torque;
+use crate::door::{Axes, Command, Sensed};
+use crate::feedforward::feedforward_torque;
+use crate::law::{Feedforward, Measurement, Tuning};
+use crate::phase::{Held, JointTiming, PHASES, Path, Phase};
+use crate::resolved_motion::{
+    Assignment, Belief, Redundancy, Resolved, ResolvedMotion, WantedMotion, answered_motion,
+    resolved_motion, task_jacobian,
+};
+use crate::trajectory::{BadNumbers, JointMove, Profile, Quintic, ToolMotion};
+use wrasse_dynamics::{Frame, Robot, State, kinematics, mass_matrix, momentum};
+use wrasse_hardware::{SetPoint, SetPointMotion};
+use wrasse_spatial::{
+    Dual, Pose, Quat, Scalar, SpatialMomentum, SpatialVelocity, Sym3, Vec3, turned_by,
+};
+
+/// How a flight computer is set up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Setup<T, const J: usize> {
+    /// What is asked of the arm; its axes are those of the current phase.
+    pub assignment: Assignment<T>,
+    /// Use of the freedom that the task leaves.
+    pub redundancy: Redundancy<T, J>,
+    /// What the attitude control is told of the arm.
+    pub feedforward: Feedforward,
+    /// What the guidance measures.
+    pub measurement: Measurement,
+    /// Numbers of the laws.
+    pub tuning: Tuning<T>,
+    /// Attitude that the attitude control keeps.
+    pub quat_ND: Quat<T>,
+}
+
+/// A phase that cannot begin because its numbers describe no motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BadPhase {
+    /// Number of the phase.
+    pub phase: usize,
+    /// What is wrong with it.
+    pub numbers: BadNumbers,
+}
+
+/// What flies: one call per control period.
+#[derive(Debug, Clone, Copy)]
+pub struct FlightComputer<T, const J: usize> {
+    setup: Setup<T, J>,
+    robot: Robot<T, J>,
+    dual_robot: Robot<Dual<T>, J>,
+    phases: [Option<Phase<T, J>>; PHASES],
+    phase: usize,
+    path: Path<T, J>,
+    /// Periods since the path began, and of the path.
+    elapsed: u32,
+    length: u32,
+    started: bool,
+    belief: Belief<T, J>,
+    /// Set-points and motion at the start of the coming period.
+    now: [SetPoint<T>; J],
+    motion: ResolvedMotion<T, J>,
+    reference: ToolMotion<T>,
+    axes: Axes,
+}
+
+/// Periods that cover a duration.
+fn periods<T: Scalar>(duration: T, period: T) -> u32 {
+    let count = (duration / period).to_f64() - 1e-9;
+    // The cast saturates: a bad duration was refused before.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "rounds up by one")]
+    let whole = count.max(0.0) as u32;
+    if f64::from(whole) < count { whole + 1 } else { whole.max(1) }
+}
+
+impl<T: Scalar, const J: usize> FlightComputer<T, J> {
+    /// A computer for this robot (with what it holds at the start) and these phases; those beyond
+    /// [`PHASES`] are left out.
+    pub fn new(setup: Setup<T, J>, robot: &Robot<f64, J>, phases: &[Phase<T, J>]) -> Self {
+        let mut list = [None; PHASES];
+        list.iter_mut().zip(phases).for_each(|(to, from)| *to = Some(*from));
+        let rest = Resolved { qdot: [T::zero(); J], V_NB_B: SpatialVelocity::zero() };
+        Self {
+            setup,
+            robot: robot.cast(),
+            dual_robot: robot.cast(),
+            phases: list,
+            phase: 0,
+            path: Path::Still(Held::Joints),
+            elapsed: 0,
+            length: 0,
+            started: false,
+            belief: Belief {
+                X_NB: Pose::identity(),
+                q: [T::zero(); J],
+                h_Scm_N: SpatialMomentum::zero(),
+            },
+            now: [SetPoint::default(); J],
+            motion: ResolvedMotion {
+                rate: rest,
+                qddot: [T::zero(); J],
+                A_NB_B: SpatialVelocity::zero(),
+            },
+            reference: ToolMotion {
+                X_NE: Pose::identity(),
+                V_NE_N: SpatialVelocity::zero(),
+                Vdot_NE_N: SpatialVelocity::zero(),
+            },
+            axes: Axes::Inertial,
+        }
+    }
+
+    /// One control period: from what the sensors say to what the actuators are told.
+    ///
+    /// # Errors
+    /// If a phase begins whose numbers describe no motion.
+    pub fn step(&mut self, sensed: &Sensed<T, J>) -> Result<Command<T, J>, BadPhase> {
+        self.look(&sensed.state);
+        let mut grip = None;
+        if self.elapsed >= self.length {
+            grip = self.begin_next()?;
+        }
+        let period = self.setup.tuning.period;
+        self.elapsed += 1;
+        self.advance_belief(period);
+        self.follow(T::from_f64(f64::from(self.elapsed)) * period);
+        let mut next = [SetPoint::default(); J];
+        for j in self.robot.joints() {
+            next[j] = SetPoint {
+                position: self.belief.q[j],
+                rate: self.motion.rate.qdot[j],
+                acceleration: self.motion.qddot[j],
+            };
+        }
+        let mut command = self.command_between(&sensed.state, &next);
+        command.grip = grip;
+        self.now = next;
+        Ok(command)
+    }
+
+    /// Take from the sensors what the laws may take.
+    fn look(&mut self, sensed: &State<T, J>) {
+        if self.started && self.setup.measurement == Measurement::None {
+            return;
+        }
+        self.belief.X_NB = sensed.X_NB;
+        self.belief.h_Scm_N = momentum_of(&self.robot, sensed);
+        if !self.started {
+            self.started = true;
+            self.belief.q = sensed.q;
+            for j in self.robot.joints() {
+                self.now[j] = SetPoint { position: sensed.q[j], rate: sensed.v[j], ..self.now[j] };
+            }
+            self.motion.rate = Resolved { qdot: sensed.v, V_NB_B: sensed.V_NB_B };
+            self.reference = at_rest(self.believed_tool(Axes::Inertial));
+        }
+    }
+
+    /// Pose of the tool as it is believed to be.
+    fn believed_tool(&self, axes: Axes) -> Pose<T> {
+        let X_NB = match axes {
+            Axes::Inertial => self.belief.X_NB,
+            Axes::Base => Pose::identity(),
+        };
+        let state = State { X_NB, q: self.belief.q, ..State::default() };
+        kinematics(&self.robot, &state).pose(&self.setup.assignment.tool)
+    }
+
+    /// Begin the next phase; what it tells the grip.
+    fn begin_next(&mut self) -> Result<Option<crate::Grip>, BadPhase> {
+        let next = if self.length == 0 && self.elapsed == 0 { 0 } else { self.phase + 1 };
+        self.phase = next;
+        self.elapsed = 0;
+        let Some(phase) = self.phases.get(next).copied().flatten() else {
+            (self.path, self.length) = (Path::Still(Held::Joints), u32::MAX);
+            return Ok(None);
+        };
+        let mut grip = None;
+        let path = match phase {
+            Phase::MoveTool { target, axes, timing } => {
+                let from = self.believed_tool(axes);
+                timing
+                    .line(from, target.from(&from))
+                    .map(|line| (Path::Line(line, axes), line.duration()))
+            }
+            Phase::MoveJoints { to, timing } => {
+                self.joint_move(to, &timing).map(|path| (Path::Joints(path), path.duration()))
+            }
+            Phase::Hold { what, duration } => Ok((Path::Still(what), duration)),
+            Phase::Grip(told) => {
+                grip = Some(told);
+                Ok((Path::Still(Held::Joints), self.setup.tuning.period))
+            }
+        };
+        let (path, duration) = path.map_err(|numbers| BadPhase { phase: next, numbers })?;
+        self.path = path;
+        self.length = periods(duration, self.setup.tuning.period);
+        Ok(grip)
+    }
+
+    fn joint_move(
+        &self,
+        to: [T; J],
+        timing: &JointTiming<T, J>,
+    ) -> Result<JointMove<T, J>, BadNumbers> {
+        match timing {
+            JointTiming::Duration(duration) => {
+                let profile = Profile::Quintic(Quintic::new(T::one(), *duration)?);
+                JointMove::new(self.belief.q, to, profile)
+            }
+            JointTiming::Limits { shape, limits } => {
+                JointMove::within(self.belief.q, to, *shape, limits)
+            }
+        }
+    }
+
+    /// Where the vehicle is believed to be one period on, from its motion now.
+    fn advance_belief(&mut self, period: T) {
+        let (rate, half) = (&self.motion.rate, T::from_f64(0.5) * period);
+        for j in self.robot.joints() {
+            self.belief.q[j] += (rate.qdot[j] + self.motion.qddot[j] * half) * period;
+        }
+        let V = rate.V_NB_B + self.motion.A_NB_B * half;
+        let X = &self.belief.X_NB;
+        let quat = turned_by(Quat::from_matrix(&X.rotation), V.angular * period);
+        // The translation is in axes that turn: half the turn is felt on average.
+        let halfway = X.rotation * Quat::exp(V.angular * half).to_matrix();
+        self.belief.X_NB = Pose::from_quat(quat, X.translation + halfway * (V.linear * period));
+    }
+
+    /// Joint motion at time `t` (s) of the path.
+    fn follow(&mut self, t: T) {
+        let law = self.setup.assignment.law;
+        let answer = |computer: &Self, qdot: &[T; J], qddot: &[T; J]| {
+            answered_motion(
+                &computer.robot,
+                &computer.dual_robot,
+                law,
+                &computer.belief,
+                qdot,
+                qddot,
+            )
+        };
+        let still = [T::zero(); J];
+        match self.path {
+            Path::Line(line, axes) => {
+                (self.reference, self.axes) = (line.at(t), axes);
+                self.follow_tool();
+            }
+            Path::Still(Held::Tool) => {
+                self.reference = at_rest(self.reference.X_NE);
+                self.follow_tool();
+            }
+            Path::Joints(path) => {
+                let at = path.at(t);
+                self.belief.q = at.q;
+                self.motion = answer(self, &at.v, &at.vdot);
+                self.axes = Axes::Inertial;
+                self.reference = at_rest(self.believed_tool(Axes::Inertial));
+            }
+            Path::Still(Held::Joints) => {
+                self.belief.q = self.now.map(|s| s.position);
+                self.motion = answer(self, &still, &still);
+            }
+            Path::Still(Held::Nothing) => {
+                let rates = self.motion.rate.qdot;
+                self.motion = answer(self, &rates, &still);
+            }
+        }
+    }
+
+    /// Joint motion that keeps the tool on its reference.
+    fn follow_tool(&mut self) {
+        let X = self.believed_tool(self.axes);
+        let R_error = self.reference.X_NE.rotation * X.rotation.transpose();
+        let error = SpatialVelocity::new(
+            Quat::from_matrix(&R_error).log(),
+            self.reference.X_NE.translation - X.translation,
+        );
+        let gain = self.setup.tuning.tool_gain;
+        let wanted = WantedMotion {
+            V_NE: self.reference.V_NE_N + error * gain,
+            // The error dies out as it is told to, so its rate is known.
+            Vdot_NE: self.reference.Vdot_NE_N - error * (gain * gain),
+        };
+        let to = Assignment { axes: self.axes, ..self.setup.assignment };
+        self.motion = resolved_motion(
+            &self.robot,
+            &self.dual_robot,
+            &to,
+            &self.belief,
+            &wanted,
+            &self.setup.redundancy,
+        );
+    }
+
+    /// What the actuators are told between two sets of set-points.
+    fn command_between(&self, sensed: &State<T, J>, next: &[SetPoint<T>; J]) -> Command<T, J> {
+        let tuning = &self.setup.tuning;
+        let half = T::from_f64(0.5);
+        // Torques are constant over the period: those of its middle are right on average.
+        let mut middle = self.now;
+        let mut acceleration = [T::zero(); J];
+        for j in self.robot.joints() {
+            let blend = SetPointMotion::between(self.now[j], next[j], tuning.period);
+            middle[j] = blend.at(tuning.period * half);
+            acceleration[j] = (next[j].rate - self.now[j].rate) / tuning.period;
+        }
+        let coasting = matches!(self.path, Path::Still(Held::Nothing));
+        let (effort, attitude_torque_B) = if coasting {
+            ([T::zero(); J], Vec3::zero())
+        } else {
+            let law = self.setup.assignment.law;
+            (
+                computed_torque(&self.robot, law, tuning, sensed, &self.now, &acceleration),
+                self.attitude_torque(sensed, &middle),
+            )
+        };
+        Command {
+            set_points: *next,
+            effort,
+            attitude_torque_B,
+            grip: None,
+            phase: self.phase,
+            reference: self.reference,
+            axes: self.axes,
+        }
+    }
+
+    fn attitude_torque(&self, sensed: &State<T, J>, middle: &[SetPoint<T>; J]) -> Vec3<T> {
+        let ahead = feedforward_torque(&self.robot, self.setup.feedforward, middle);
+        let quat_NB = Quat::from_matrix(&sensed.X_NB.rotation);
+        let w_NB_B = sensed.V_NB_B.angular;
+        let I = self.locked_inertia();
+        ahead + attitude_torque(&self.setup.tuning, &I, &quat_NB, w_NB_B, &self.setup.quat_ND)
+    }
+
+    /// Inertia of the whole system about its centre of mass, joints locked, base axes (kg·m²).
+    fn locked_inertia(&self) -> Sym3<T> {
+        let state = State { q: self.belief.q, ..State::default() };
+        mass_matrix(&kinematics(&self.robot, &state)).M_bb.central()
+    }
+
+    /// The robot has taken hold of something, or let go: what it is from now on.
+    pub fn robot_changed(&mut self, robot: &Robot<f64, J>) {
+        self.robot = robot.cast();
+        self.dual_robot = robot.cast();
+        let believed = self.believed_state();
+        self.belief.h_Scm_N = momentum_of(&self.robot, &believed);
+    }
+
+    /// Where the law believes the vehicle to be, and how it moves.
+    pub fn believed_state(&self) -> State<T, J> {
+        State {
+            X_NB: self.belief.X_NB,
+            V_NB_B: self.motion.rate.V_NB_B,
+            q: self.belief.q,
+            v: self.motion.rate.qdot,
+        }
+    }
+
+    /// The robot as the laws know it.
+    pub fn robot(&self) -> &Robot<T, J> {
+        &self.robot
+    }
+
+    /// The tool frame that is guided.
+    pub fn tool(&self) -> &Frame<T> {
+        &self.setup.assignment.tool
+    }
+
+    /// Pose of the tool as the law believes it to be, in the axes of its reference.
+    pub fn believed_tool_pose(&self) -> Pose<T> {
+        self.believed_tool(self.axes)
+    }
+
+    /// The law's Jacobian now: columns are the tool's twist per joint rate.
+    pub fn task_jacobian(&self) -> [SpatialVelocity<T>; J] {
+        let to = Assignment { axes: self.axes, ..self.setup.assignment };
+        task_jacobian(&self.robot, &to, &self.belief)
+    }
+
+    /// Whether the current phase moves the tool along a line.
+    pub fn follows_tool(&self) -> bool {
+        matches!(self.path, Path::Line(..) | Path::Still(Held::Tool))
+    }
+
+    /// Whether all phases are done.
+    pub fn done(&self) -> bool {
+        self.elapsed >= self.length && self.phases.get(self.phase + 1).is_none_or(Option::is_none)
+    }
+}
+
+/// A tool that stays where it is.
+fn at_rest<T: Scalar>(X_NE: Pose<T>) -> ToolMotion<T> {
+    let zero = SpatialVelocity::zero();
+    ToolMotion { X_NE, V_NE_N: zero, Vdot_NE_N: zero }
+}
+
+/// Total momentum about the system's centre of mass, inertial axes.
+fn momentum_of<T: Scalar, const J: usize>(
+    robot: &Robot<T, J>,
+    state: &State<T, J>,
+) -> SpatialMomentum<T> {
+    let h = momentum(&kinematics(robot, state));
+    SpatialMomentum::new(h.angular, h.linear)
+}

@@ -1,0 +1,130 @@
+//! Phases of a mission, as the flight computer knows them.
+
+use crate::door::{Axes, Grip};
+use crate::trajectory::{
+    BadNumbers, JointMove, MotionLimits, Profile, ProfileShape, Quintic, StraightLine,
+};
+use wrasse_spatial::{Pose, Quat, Scalar, Vec3};
+
+/// Most phases of one mission.
+pub const PHASES: usize = 32;
+
+/// One phase.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Phase<T, const J: usize> {
+    /// The tool goes on a straight line, turning on the geodesic.
+    MoveTool {
+        /// Where to.
+        target: Target<T>,
+        /// Axes of the target, and of the line.
+        axes: Axes,
+        /// How fast.
+        timing: Timing<T>,
+    },
+    /// All joints go to a posture, starting and ending together.
+    MoveJoints {
+        /// Where to (rad or m).
+        to: [T; J],
+        /// How fast; limits are those of each joint.
+        timing: JointTiming<T, J>,
+    },
+    /// Nothing new is asked.
+    Hold {
+        /// What stays.
+        what: Held,
+        /// For how long (s).
+        duration: T,
+    },
+    /// The grip is told something; takes one control period.
+    Grip(Grip),
+}
+
+/// What a hold keeps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Held {
+    /// The joints stand still.
+    Joints,
+    /// The tool stays where its reference is.
+    Tool,
+    /// Nothing: the joints move on as they do, no actuator acts.
+    Nothing,
+}
+
+/// Where a tool should go.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Target<T> {
+    /// From where it is: displacement (m) and rotation vector (rad), in the phase's axes.
+    By {
+        /// Displacement (m).
+        displacement: Vec3<T>,
+        /// Rotation vector (rad).
+        turn: Vec3<T>,
+    },
+    /// To a pose in the phase's axes.
+    To(Pose<T>),
+}
+
+/// How fast a tool moves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Timing<T> {
+    /// A quintic of this duration (s).
+    Duration(T),
+    /// The shortest under limits of position (m) and turn (rad).
+    Limits {
+        /// Shape of the profile.
+        shape: ProfileShape,
+        /// Limits of the position.
+        linear: MotionLimits<T>,
+        /// Limits of the turn.
+        angular: MotionLimits<T>,
+    },
+}
+
+/// How fast the joints move.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum JointTiming<T, const J: usize> {
+    /// A quintic of this duration (s).
+    Duration(T),
+    /// The shortest under limits of each joint.
+    Limits {
+        /// Shape of the profile.
+        shape: ProfileShape,
+        /// Limits of each joint.
+        limits: [MotionLimits<T>; J],
+    },
+}
+
+/// What is followed while a phase lasts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Path<T, const J: usize> {
+    Line(StraightLine<T>, Axes),
+    Joints(JointMove<T, J>),
+    Still(Held),
+}
+
+impl<T: Scalar> Target<T> {
+    /// The pose to reach from `X`, both in the phase's axes.
+    pub(crate) fn from(&self, X: &Pose<T>) -> Pose<T> {
+        match self {
+            Self::To(pose) => *pose,
+            Self::By { displacement, turn } => {
+                Pose::new(Quat::exp(*turn).to_matrix() * X.rotation, X.translation + *displacement)
+            }
+        }
+    }
+}
+
+impl<T: Scalar> Timing<T> {
+    /// The line from one pose to another.
+    pub(crate) fn line(&self, from: Pose<T>, to: Pose<T>) -> Result<StraightLine<T>, BadNumbers> {
+        match self {
+            Self::Duration(duration) => {
+                let profile = Profile::Quintic(Quintic::new(T::one(), *duration)?);
+                StraightLine::new(from, to, profile)
+            }
+            Self::Limits { shape, linear, angular } => {
+                StraightLine::within(from, to, *shape, linear, angular)
+            }
+        }
+    }
+}
