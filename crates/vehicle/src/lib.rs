@@ -3,6 +3,7 @@
 
 mod assemble;
 mod assembly;
+mod catalogue;
 mod denavit_hartenberg;
 mod figures;
 mod findings;
@@ -25,6 +26,7 @@ mod urdf_link;
 mod urdf_numbers;
 mod vehicle;
 
+pub use catalogue::{CatalogueEntry, NoVehicle, catalogue, find_vehicle};
 pub use read_toml::vehicle_schema;
 pub use read_vehicle::read_vehicle;
 pub use vehicle::{

@@ -1,0 +1,99 @@
+//! The vehicles that come with wrasse, and how a vehicle is found by its name or its file.
+
+use crate::read_vehicle::read_vehicle;
+use crate::vehicle::Vehicle;
+use std::path::{Path, PathBuf};
+use wrasse_document::{Complaint, closest};
+
+/// A vehicle of the catalogue. Its file is part of the program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CatalogueEntry {
+    /// What it is called.
+    pub name: &'static str,
+    /// Its file in `vehicles/`.
+    pub file_name: &'static str,
+    /// The whole text of the file.
+    pub text: &'static str,
+}
+
+macro_rules! entry {
+    ($name:literal, $ending:literal) => {
+        CatalogueEntry {
+            name: $name,
+            file_name: concat!($name, ".", $ending),
+            text: include_str!(concat!("../../../vehicles/", $name, ".", $ending)),
+        }
+    };
+}
+
+static CATALOGUE: [CatalogueEntry; 3] = [
+    entry!("atlas-class", "toml"),
+    entry!("atlas-class-two-arms", "toml"),
+    entry!("planar-two-link", "toml"),
+];
+
+/// All vehicles of the catalogue.
+pub fn catalogue() -> &'static [CatalogueEntry] {
+    &CATALOGUE
+}
+
+impl CatalogueEntry {
+    /// The vehicle.
+    ///
+    /// # Errors
+    /// All complaints about its file; the catalogue's own tests see to it that there are none.
+    pub fn read(&self) -> Result<Vehicle, Vec<Complaint>> {
+        read_vehicle(Path::new("vehicles").join(self.file_name), self.text)
+    }
+}
+
+/// Why there is no vehicle.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum NoVehicle {
+    /// No catalogue entry and no file has this name: for a complaint at the place that asked for it.
+    NotFound {
+        /// What was found.
+        message: String,
+        /// What to write instead.
+        help: String,
+    },
+    /// Its file has errors.
+    Faulty(Vec<Complaint>),
+}
+
+/// The vehicle of a catalogue name, or of a file.
+///
+/// A name with a slash or a file ending is a file; its place is seen from the folder `relative_to`.
+///
+/// # Errors
+/// If there is no such vehicle, or its file has errors.
+pub fn find_vehicle(name_or_path: &str, relative_to: Option<&Path>) -> Result<Vehicle, NoVehicle> {
+    if let Some(entry) = catalogue().iter().find(|entry| entry.name == name_or_path) {
+        return entry.read().map_err(NoVehicle::Faulty);
+    }
+    let names = || catalogue().iter().map(|entry| entry.name);
+    let is_file =
+        name_or_path.contains(['/', '\\']) || Path::new(name_or_path).extension().is_some();
+    if !is_file {
+        let message = format!("no vehicle of the catalogue is called \"{name_or_path}\"");
+        let help = match closest(name_or_path, names()) {
+            Some(meant) => format!("did you mean \"{meant}\"?"),
+            None => format!(
+                "the catalogue has {}; a file is named with its ending",
+                names().collect::<Vec<_>>().join(", ")
+            ),
+        };
+        return Err(NoVehicle::NotFound { message, help });
+    }
+    let path =
+        relative_to.map_or_else(|| PathBuf::from(name_or_path), |from| from.join(name_or_path));
+    let text = std::fs::read_to_string(&path).map_err(|error| NoVehicle::NotFound {
+        message: format!("cannot read the vehicle file {}: {error}", path.display()),
+        help: match relative_to {
+            Some(_) => "the path is seen from the folder of the file that names it".into(),
+            None => "is the path right?".into(),
+        },
+    })?;
+    read_vehicle(path, text).map_err(NoVehicle::Faulty)
+}

@@ -1,0 +1,118 @@
+//! The vehicles that come with wrasse.
+
+use std::path::Path;
+use wrasse_document::{Severity, render};
+use wrasse_dynamics::BodyId;
+use wrasse_spatial::Vec3;
+use wrasse_vehicle::{NoVehicle, Vehicle, catalogue, find_vehicle, read_vehicle};
+
+fn vehicle(name: &str) -> Vehicle {
+    match find_vehicle(name, None) {
+        Ok(vehicle) => vehicle,
+        Err(NoVehicle::Faulty(complaints)) => panic!("{}", render(&complaints, false)),
+        Err(other) => panic!("{other:?}"),
+    }
+}
+
+/// Largest difference between the numbers of two robots, relative to the larger of the two.
+fn difference(a: &Vehicle, b: &Vehicle) -> f64 {
+    assert_eq!(a.joint_names, b.joint_names);
+    let mut worst: f64 = 0.0;
+    let mut compare = |x: f64, y: f64| {
+        let scale = x.abs().max(y.abs());
+        worst = worst.max(if scale > 0.0 { (x - y).abs() / scale } else { 0.0 });
+    };
+    for j in a.robot.joints() {
+        let (a, b) = (a.robot.joint(j), b.robot.joint(j));
+        assert_eq!((a.parent, a.kind), (b.parent, b.kind));
+        let numbers = |joint: &wrasse_dynamics::Joint<f64>| {
+            let [x, y, z] = joint.X_PB_zero.rotation.rows;
+            [x, y, z, joint.X_PB_zero.translation, joint.axis_B].map(Vec3::to_array).concat()
+        };
+        numbers(a).iter().zip(numbers(b)).for_each(|(x, y)| compare(*x, y));
+    }
+    for body in a.robot.bodies() {
+        let (a, b) = (a.robot.inertia(body).to_matrix(), b.robot.inertia(body).to_matrix());
+        a.concat().iter().zip(b.concat()).for_each(|(x, y)| compare(*x, y));
+    }
+    worst
+}
+
+#[test]
+fn every_vehicle_of_the_catalogue_is_read_without_error() {
+    for entry in catalogue() {
+        let vehicle = vehicle(entry.name);
+        let errors = vehicle.remarks.iter().filter(|r| r.severity == Severity::Error).count();
+        assert_eq!(errors, 0, "{}", entry.name);
+        assert!(vehicle.robot.joint_count() > 0);
+    }
+}
+
+#[test]
+fn every_number_of_the_catalogue_says_where_it_comes_from() {
+    for entry in catalogue() {
+        let remarks = vehicle(entry.name).remarks;
+        let without: Vec<_> = remarks.iter().filter(|r| r.message.contains("come from")).collect();
+        assert!(without.is_empty(), "{}: {without:?}", entry.name);
+    }
+}
+
+#[test]
+fn every_file_in_vehicles_is_in_the_catalogue() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../vehicles");
+    let mut files: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|file| file.unwrap().file_name().into_string().unwrap())
+        .filter(|name| Path::new(name).extension().is_some_and(|e| e != "md"))
+        .collect();
+    files.sort();
+    let mut listed: Vec<_> = catalogue().iter().map(|entry| entry.file_name).collect();
+    listed.sort_unstable();
+    assert_eq!(files, listed);
+}
+
+#[test]
+fn atlas_class_is_the_robot_of_the_golden_data() {
+    let text = include_str!("../../../validation/golden/atlas_class_unladen.urdf");
+    let golden = read_vehicle("atlas_class_unladen.urdf", text).unwrap();
+    let ours = vehicle("atlas-class");
+    // The golden file's numbers carry the round-off of the formulae they were made with.
+    let off = difference(&ours, &golden);
+    assert!(off <= 1e-15, "measured 2.2e-16: {off:e}");
+    let tool = |v: &Vehicle| v.frame("tool").unwrap();
+    assert_eq!(tool(&ours), tool(&golden));
+    assert_eq!(ours.tools, ["tool"]);
+}
+
+#[test]
+fn each_arm_of_the_two_armed_vehicle_is_the_arm_of_the_one_armed() {
+    let (one, two) = (vehicle("atlas-class"), vehicle("atlas-class-two-arms"));
+    for j in one.robot.joints() {
+        for (arm, side) in [(j, 0.5), (j + 7, -0.5)] {
+            let (a, b) = (one.robot.joint(j), two.robot.joint(arm));
+            assert_eq!((a.axis_B, a.X_PB_zero.rotation), (b.axis_B, b.X_PB_zero.rotation));
+            let on_mount = |y: f64| [0.9, y, 0.0];
+            let expected = if j == 0 { on_mount(side) } else { a.X_PB_zero.translation.to_array() };
+            assert_eq!(b.X_PB_zero.translation.to_array(), expected);
+            let inertia = |v: &Vehicle, k| *v.robot.inertia(BodyId::Link(k));
+            assert_eq!(inertia(&one, j), inertia(&two, arm));
+        }
+    }
+    assert_eq!(one.robot.inertia(BodyId::Base), two.robot.inertia(BodyId::Base));
+    assert_eq!(two.tools, ["a_tool", "b_tool"]);
+    let (start, both) = (one.posture("sideways_1m").unwrap(), two.posture("sideways_1m").unwrap());
+    assert_eq!(start.q[..], both.q[..7]);
+}
+
+#[test]
+fn a_name_that_is_not_in_the_catalogue_finds_the_nearest() {
+    let Err(NoVehicle::NotFound { help, .. }) = find_vehicle("atlas-clas", None) else {
+        panic!("found")
+    };
+    assert_eq!(help, "did you mean \"atlas-class\"?");
+    let Err(NoVehicle::NotFound { message, .. }) = find_vehicle("none.toml", Some(Path::new("x")))
+    else {
+        panic!("found")
+    };
+    assert!(message.contains("none.toml"), "{message}");
+}
