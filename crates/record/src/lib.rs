@@ -1,1 +1,24 @@
-//! Results out: Parquet telemetry, summary, the HTML report.
+//! Results out: Parquet telemetry, the summary, the HTML report, the table for the terminal.
+//!
+//! Nothing here computes physics: an [`Outcome`](wrasse_mission::Outcome) goes in, files and
+//! text come out, the same bytes for the same outcome.
+#![allow(clippy::format_push_string, reason = "`text += &format!(…)` reads as what it does")]
+
+mod case_sections;
+mod comparison;
+mod drawing;
+mod ledger_rests;
+mod markup;
+mod numbers;
+mod parquet_file;
+mod plots;
+mod report;
+mod results;
+mod summary;
+mod tables;
+
+pub use parquet_file::telemetry_parquet;
+pub use report::report_html;
+pub use results::{RecordError, Written, write_results};
+pub use summary::summary_json;
+pub use tables::verdict_table;

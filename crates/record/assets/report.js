@@ -1,0 +1,224 @@
+// Draws the plots of the case that is looked at, and sorts the table of cases.
+"use strict";
+(() => {
+  const cases = JSON.parse(document.getElementById("plot-data").textContent);
+  const sections = [...document.querySelectorAll(".case")];
+  let drawn = [];
+  let shown = 0;
+
+  // 32-bit floats, little-endian, in base64. A gap is null.
+  function numbers(base64) {
+    const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+    const view = new DataView(bytes.buffer);
+    return Array.from({ length: bytes.length / 4 }, (_, k) => {
+      const value = view.getFloat32(4 * k, true);
+      return Number.isFinite(value) ? value : null;
+    });
+  }
+
+  function colour(name) {
+    return getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
+  }
+
+  function digits(value, count) {
+    if (value == null) return "–";
+    const size = Math.abs(value);
+    if (value === 0) return "0";
+    return size < 1e-3 || size >= 1e5 ? value.toExponential(count - 1) : value.toPrecision(count);
+  }
+
+  // Figures of an axis: plain where they are short, else with one exponent for all.
+  function axisFigures(u, splits) {
+    const largest = Math.max(...splits.map(Math.abs));
+    const step = Math.abs(splits[1] - splits[0]) || 1;
+    if (largest !== 0 && (largest < 1e-3 || largest >= 1e5)) {
+      const places = Math.max(0, Math.min(3, Math.ceil(Math.log10(largest / step))));
+      return splits.map((v) => (v === 0 ? "0" : v.toExponential(places).replace(/\.?0+e/, "e")));
+    }
+    let places = 0;
+    while (places < 8 && Math.abs(step * 10 ** places - Math.round(step * 10 ** places)) > 1e-6) places += 1;
+    return splits.map((v) => v.toFixed(places).replace(/^-(0\.?0*)$/, "$1"));
+  }
+
+  // A line that does not vary is drawn in the middle of its own plot.
+  function range(u, low, high) {
+    if (low == null) return [0, 1];
+    if (low === high) return [low - (Math.abs(low) || 1), high + (Math.abs(high) || 1)];
+    const pad = 0.06 * (high - low);
+    return [low - pad, high + pad];
+  }
+
+  function widthOf(u, figures) {
+    const longest = (figures || []).reduce((n, text) => Math.max(n, text.length), 1);
+    return 22 + 7 * longest;
+  }
+
+  // A dashed line at each event, with its number where there is room.
+  function eventLines(events) {
+    return (u) => {
+      const { ctx, bbox } = u;
+      const ratio = uPlot.pxRatio;
+      let free = -Infinity;
+      ctx.save();
+      ctx.strokeStyle = ctx.fillStyle = colour("event");
+      ctx.lineWidth = ratio;
+      ctx.setLineDash([3 * ratio, 4 * ratio]);
+      ctx.font = 10 * ratio + "px system-ui, sans-serif";
+      ctx.textAlign = "left";
+      ctx.textBaseline = "top";
+      events.forEach((event, k) => {
+        const x = u.valToPos(event.time, "x", true);
+        if (!(x >= bbox.left - 1 && x <= bbox.left + bbox.width + 1)) return;
+        ctx.beginPath();
+        ctx.moveTo(x, bbox.top);
+        ctx.lineTo(x, bbox.top + bbox.height);
+        ctx.stroke();
+        if (x > free) {
+          const number = String(k + 1);
+          ctx.fillText(number, x + 2 * ratio, bbox.top + ratio);
+          free = x + 4 * ratio + ctx.measureText(number).width;
+        }
+      });
+      ctx.restore();
+    };
+  }
+
+  function axis(scale, label, more) {
+    return {
+      scale, label, labelSize: 18, labelGap: 0, gap: 4,
+      font: "11px system-ui, sans-serif", labelFont: "12px system-ui, sans-serif",
+      stroke: colour("soft"), values: axisFigures,
+      grid: { stroke: colour("grid"), width: 1 }, ticks: { stroke: colour("line"), width: 1, size: 4 },
+      ...more,
+    };
+  }
+
+  function options(plot, events, width) {
+    const units = [...new Set(plot.lines.map((line) => line.unit))];
+    const axes = [axis("x", "time (s)", { size: 26 })];
+    const scales = { x: { time: false } };
+    units.forEach((unit, k) => {
+      scales["unit " + unit] = { range };
+      const side = k === 0 ? {} : { side: 1, grid: { show: false } };
+      if (k < 2) axes.push(axis("unit " + unit, unit, { size: widthOf, ...side }));
+    });
+    const series = plot.lines.map((line, k) => ({
+      label: units.length > 1 ? line.label + " (" + line.unit + ")" : line.label,
+      scale: "unit " + line.unit, stroke: colour("line-" + (1 + (k % 8))), width: 1.5,
+      dash: k < 8 ? undefined : [6, 3],
+      value: (u, value) => digits(value, 5), points: { show: plot.drawn < 3 },
+    }));
+    return {
+      width, height: 250, scales, axes,
+      series: [{ label: "t (s)", value: (u, value) => digits(value, 5) }, ...series],
+      cursor: { sync: { key: "time" }, points: { size: 6 } },
+      hooks: { drawClear: [eventLines(events)] },
+    };
+  }
+
+  function build(box, plot, events) {
+    const units = [...new Set(plot.lines.map((line) => line.unit))];
+    const part = document.createElement("div");
+    const title = document.createElement("h4");
+    title.textContent = plot.title + " ";
+    const small = document.createElement("small");
+    small.textContent = "(" + units.join(", ") + ")"
+      + (plot.drawn < plot.samples ? " – " + plot.drawn + " of " + plot.samples + " samples drawn" : "");
+    title.append(small);
+    part.append(title);
+    box.append(part);
+    const data = [numbers(plot.time), ...plot.lines.map((line) => numbers(line.values))];
+    const chart = new uPlot(options(plot, events, part.clientWidth), data, part);
+    drawn.push({ chart, part });
+  }
+
+  function draw() {
+    drawn.forEach(({ chart, part }) => { chart.destroy(); part.remove(); });
+    drawn = [];
+    const box = sections[shown] && sections[shown].querySelector(".plots");
+    const data = cases[shown];
+    if (!box || !data) return;
+    box.querySelectorAll(".noscript").forEach((note) => note.remove());
+    data.plots.forEach((plot) => build(box, plot, data.events));
+  }
+
+  function fit() {
+    drawn.forEach(({ chart, part }) => {
+      if (part.clientWidth && chart.width !== part.clientWidth) {
+        chart.setSize({ width: part.clientWidth, height: chart.height });
+      }
+    });
+  }
+
+  const select = document.querySelector("#chooser select");
+  const links = [...document.querySelectorAll('.comparison a[href^="#case-"]')];
+
+  function choose(id) {
+    const found = sections.findIndex((section) => section.id === id);
+    shown = Math.max(0, found);
+    sections.forEach((section, k) => { section.hidden = k !== shown; });
+    if (select) select.value = sections[shown].id;
+    links.forEach((link) => {
+      link.closest("tr").classList.toggle("chosen", link.hash === "#" + sections[shown].id);
+    });
+    draw();
+  }
+
+  // #case-3 and #case-3-events both choose case 3; other anchors leave the choice as it is.
+  function caseInAddress() {
+    const match = /^#(case-\d+)/.exec(location.hash);
+    return match && match[1];
+  }
+
+  function followAddress() {
+    const id = caseInAddress();
+    if (!id) return;
+    choose(id);
+    const target = document.getElementById(location.hash.slice(1));
+    if (target) target.scrollIntoView();
+  }
+
+  function sortable(table) {
+    const body = table.tBodies[0];
+    [...table.tHead.rows[0].cells].forEach((head, column) => {
+      const button = document.createElement("button");
+      button.type = "button";
+      button.append(...head.childNodes);
+      head.append(button);
+      button.addEventListener("click", () => {
+        const down = head.getAttribute("aria-sort") === "ascending";
+        [...table.tHead.rows[0].cells].forEach((other) => other.removeAttribute("aria-sort"));
+        head.setAttribute("aria-sort", down ? "descending" : "ascending");
+        const rows = [...body.rows].sort((a, b) => compare(a.cells[column], b.cells[column]));
+        body.append(...(down ? rows.reverse() : rows));
+      });
+    });
+  }
+
+  // Figures by value, words by alphabet; what is missing comes last.
+  function compare(a, b) {
+    const [left, right] = [a, b].map((cell) => Number.parseFloat(cell.textContent));
+    if (a.className === "n" || b.className === "n") {
+      return (Number.isNaN(left) ? Infinity : left) - (Number.isNaN(right) ? Infinity : right) || 0;
+    }
+    return a.textContent.localeCompare(b.textContent, undefined, { numeric: true });
+  }
+
+  document.querySelectorAll("table.comparison").forEach(sortable);
+  if (sections.length) choose(caseInAddress() || sections[0].id);
+  if (select) {
+    select.addEventListener("change", () => {
+      history.replaceState(null, "", "#" + select.value);
+      choose(select.value);
+    });
+  }
+  addEventListener("hashchange", followAddress);
+  let waiting = 0;
+  addEventListener("resize", () => {
+    cancelAnimationFrame(waiting);
+    waiting = requestAnimationFrame(fit);
+  });
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
+  addEventListener("beforeprint", () => { document.documentElement.dataset.print = ""; draw(); });
+  addEventListener("afterprint", () => { delete document.documentElement.dataset.print; draw(); });
+})();

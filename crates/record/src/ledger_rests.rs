@@ -1,0 +1,34 @@
+//! What momentum and energy leave unexplained, and how much that is of what was in play.
+
+use wrasse_mission::Ledger;
+
+/// What one line of the ledger leaves unexplained.
+pub(crate) struct Rest {
+    /// Its unit.
+    pub(crate) unit: &'static str,
+    /// Unexplained, largest over the run.
+    pub(crate) rest: f64,
+    /// What was in play.
+    pub(crate) scale: f64,
+    /// Rest over scale; zero where there is no rest.
+    pub(crate) relative: f64,
+    /// The bound on `relative`.
+    pub(crate) bound: f64,
+}
+
+/// The unexplained rests: angular and linear momentum, energy.
+pub(crate) fn ledger_rests(ledger: &Ledger) -> [Rest; 3] {
+    let rest = |unit, rest: f64, scale: f64, bound| Rest {
+        unit,
+        rest,
+        scale,
+        relative: if rest == 0.0 { 0.0 } else { rest / scale },
+        bound,
+    };
+    let [angular, linear, energy] = ledger.bounds;
+    [
+        rest("N·m·s", ledger.angular_rest, ledger.angular_scale, angular),
+        rest("N·s", ledger.linear_rest, ledger.linear_scale, linear),
+        rest("J", ledger.energy_rest, ledger.energy_scale, energy),
+    ]
+}

@@ -1,0 +1,55 @@
+//! Numbers as people read them: five significant digits, and no more.
+
+/// `value` to five significant digits: plain from 0.001 to 100 000, else with an exponent.
+pub(crate) fn significant(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if !value.is_finite() {
+        return value.to_string();
+    }
+    // Rounding first and reading the exponent afterwards: 9.99999 has the exponent of 10.
+    let scientific = format!("{value:.4e}");
+    let (mantissa, exponent) = scientific.split_once('e').expect("`e` formatting writes an `e`");
+    let exponent: i32 = exponent.parse().expect("`e` formatting writes a whole exponent");
+    match usize::try_from(4 - exponent) {
+        Ok(decimals) if exponent >= -3 => trimmed(&format!("{value:.decimals$}")).to_owned(),
+        _ => format!("{}e{exponent}", trimmed(mantissa)),
+    }
+}
+
+/// Two significant digits with an exponent, for bounds and ratios of which the power of ten is what matters.
+pub(crate) fn power(value: f64) -> String {
+    if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
+}
+
+/// Without the zeros that end a decimal fraction.
+fn trimmed(number: &str) -> &str {
+    if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn five_digits_are_kept_and_trailing_zeros_are_not() {
+        let cases = [
+            (0.0, "0"),
+            (0.3, "0.3"),
+            (-127.712_34, "-127.71"),
+            (1500.0, "1500"),
+            (12_345.678, "12346"),
+            (99_999.9, "1e5"),
+            (9.999_999, "10"),
+            (0.001, "0.001"),
+            (1.234_567e-4, "1.2346e-4"),
+            (-2e-15, "-2e-15"),
+            (f64::NAN, "NaN"),
+            (f64::INFINITY, "inf"),
+        ];
+        for (value, text) in cases {
+            assert_eq!(significant(value), text);
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! The verdicts as plain text, for the terminal.
+
+use wrasse_mission::{CaseOutcome, Ledger, Outcome, Verdict};
+
+use crate::comparison::{Comparison, case_name, comparison, quantity, reason};
+use crate::ledger_rests::{Rest, ledger_rests};
+use crate::numbers::{power, significant};
+
+/// How a column stands.
+#[derive(Clone, Copy, PartialEq)]
+enum Side {
+    Left,
+    Right,
+}
+
+/// Verdicts, the end if it came early, and the ledger in a line each for momentum and energy;
+/// for a mission that compares cases, one table with a row for each.
+pub fn verdict_table(outcome: &Outcome) -> String {
+    match outcome.cases.as_slice() {
+        [] => "the mission has no cases\n".to_owned(),
+        [case] => single(case),
+        cases => compared(outcome, cases),
+    }
+}
+
+fn single(case: &CaseOutcome) -> String {
+    let mut text = verdicts(&case.verdicts);
+    if let Some(reason) = reason(&case.end) {
+        text += &format!("\n{}\n", printable(&reason));
+    }
+    text + "\n" + &ledger_lines(&case.ledger, "")
+}
+
+fn verdicts(verdicts: &[Verdict]) -> String {
+    if verdicts.is_empty() {
+        return "the mission states no requirements\n".to_owned();
+    }
+    let mut rows = vec![["requirement", "limit", "value", "unit", "verdict"].map(String::from)];
+    for verdict in verdicts {
+        rows.push([
+            quantity(&verdict.requirement, &verdict.comparison).to_owned(),
+            format!("{} {}", verdict.comparison, significant(verdict.limit)),
+            verdict.value.map_or("none".to_owned(), significant),
+            verdict.unit.clone(),
+            if verdict.pass { "pass" } else { "FAIL" }.to_owned(),
+        ]);
+    }
+    let rows: Vec<_> = rows.into_iter().map(Vec::from).collect();
+    aligned(&rows, &[Side::Left, Side::Right, Side::Right, Side::Left, Side::Left])
+}
+
+fn compared(outcome: &Outcome, cases: &[CaseOutcome]) -> String {
+    let mut text = comparison_rows(&comparison(outcome));
+    let passed = cases.iter().filter(|case| case.passed).count();
+    text += &format!("\n{passed} of {} cases pass\n", cases.len());
+    for case in cases {
+        let why: Vec<_> = reason(&case.end).into_iter().chain(broken(&case.verdicts)).collect();
+        if !why.is_empty() {
+            text += &printable(&format!("{}: {}", case_name(case), why.join("; ")));
+            text.push('\n');
+        }
+    }
+    if let Some(worst) = worst_ledger(cases) {
+        let whose = format!(" (worst of the cases: {})", printable(&case_name(worst)));
+        text += "\n";
+        text += &ledger_lines(&worst.ledger, &whose);
+    }
+    text
+}
+
+/// The requirements that were judged and do not hold; those without a value go with an early end.
+fn broken(verdicts: &[Verdict]) -> impl Iterator<Item = String> {
+    verdicts.iter().filter(|verdict| !verdict.pass).filter_map(|verdict| {
+        let value = significant(verdict.value?);
+        Some(format!("{} fails with {value} {}", verdict.requirement, verdict.unit))
+    })
+}
+
+/// Names of metrics stand over their figures part by part, so that columns stay narrow.
+fn comparison_rows(table: &Comparison<'_>) -> String {
+    let parts: Vec<Vec<&str>> =
+        table.columns.iter().map(|column| column.name.split('.').collect()).collect();
+    let depth = parts.iter().map(Vec::len).max().unwrap_or(0);
+    let mut rows: Vec<Vec<String>> = (0..depth)
+        .map(|line| {
+            let mut cells = vec![""; table.axes.len() + 1];
+            for parts in &parts {
+                // Names end on the same line, above the units.
+                let part = (line + parts.len()).checked_sub(depth).map(|k| parts[k]);
+                cells.push(part.unwrap_or_default());
+            }
+            cells.push("");
+            cells.into_iter().map(String::from).collect()
+        })
+        .collect();
+    let mut last = table.axes.clone();
+    last.push("outcome");
+    last.extend(table.columns.iter().map(|column| column.unit));
+    last.push("verdict");
+    rows.push(last.into_iter().map(String::from).collect());
+    for row in &table.rows {
+        let mut cells: Vec<String> = row.labels.iter().map(ToString::to_string).collect();
+        cells.push(row.ending.clone());
+        cells.extend(row.values.iter().map(|v| v.map_or("-".to_owned(), significant)));
+        cells.push(if row.passed { "pass" } else { "FAIL" }.to_owned());
+        rows.push(cells);
+    }
+    let mut sides = vec![Side::Left; table.axes.len() + 1];
+    sides.extend(vec![Side::Right; table.columns.len()]);
+    sides.push(Side::Left);
+    aligned(&rows, &sides)
+}
+
+/// The first case whose ledger stays open, else the one that comes nearest to a bound.
+fn worst_ledger(cases: &[CaseOutcome]) -> Option<&CaseOutcome> {
+    let share = |case: &CaseOutcome| {
+        let ledger = &case.ledger;
+        let open = if ledger.closes { 0.0 } else { f64::INFINITY };
+        ledger_rests(ledger).iter().map(|rest| rest.relative / rest.bound).fold(open, f64::max)
+    };
+    // Not `max_by`, which returns the last of equals.
+    cases.iter().reduce(|worst, case| if share(case) > share(worst) { case } else { worst })
+}
+
+/// One line for momentum and one for energy.
+fn ledger_lines(ledger: &Ledger, whose: &str) -> String {
+    let [angular, linear, energy] = ledger_rests(ledger);
+    let told = |rest: &Rest| {
+        format!(
+            "{} of {} {} unexplained ({}, bound {})",
+            power(rest.rest),
+            significant(rest.scale),
+            rest.unit,
+            power(rest.relative),
+            power(rest.bound)
+        )
+    };
+    let closes = if ledger.closes { "ledger closes" } else { "LEDGER OPEN" };
+    format!(
+        "momentum  {closes}: angular {}; linear {}{whose}\n\
+         energy    {closes}: {}; joints {} J, actuator {} J, outside {} J, grasps {} J\n",
+        told(&angular),
+        told(&linear),
+        told(&energy),
+        significant(ledger.work_of_joints),
+        significant(ledger.work_of_actuator),
+        significant(ledger.work_from_outside),
+        significant(ledger.energy_at_grasps),
+    )
+}
+
+/// Rows of cells in columns that line up, two spaces apart.
+fn aligned(rows: &[Vec<String>], sides: &[Side]) -> String {
+    let rows: Vec<Vec<String>> =
+        rows.iter().map(|row| row.iter().map(|cell| printable(cell)).collect()).collect();
+    let width =
+        |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..sides.len()).map(width).collect();
+    let mut text = String::new();
+    for row in &rows {
+        let mut line = String::new();
+        for ((cell, side), &width) in row.iter().zip(sides).zip(&widths) {
+            line += &match side {
+                Side::Left => format!("{cell:<width$}  "),
+                Side::Right => format!("{cell:>width$}  "),
+            };
+        }
+        text += line.trim_end();
+        text.push('\n');
+    }
+    text
+}
+
+/// Without control characters: a name in a file is not to move the cursor.
+fn printable(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_line_up_whatever_their_cells_are() {
+        let rows = [["a", "1"], ["längere·name", "-12.5"], ["x\u{1b}[2J", "3e-7"]];
+        let rows: Vec<_> = rows.iter().map(|row| row.map(String::from).to_vec()).collect();
+        assert_eq!(
+            aligned(&rows, &[Side::Left, Side::Right]),
+            "a                 1\n\
+             längere·name  -12.5\n\
+             x\u{fffd}[2J          3e-7\n"
+        );
+    }
+}

@@ -1,0 +1,146 @@
+//! The page: it is whole, it loads nothing, and no name from a file can break it.
+#![allow(clippy::unwrap_used, reason = "a test that finds nothing to unwrap has failed")]
+
+mod sample;
+
+use wrasse_mission::{CaseOutcome, Outcome};
+use wrasse_record::{report_html, verdict_table};
+
+/// The page without what browsers do not read as markup: contents of scripts and styles.
+fn markup_only(page: &str) -> String {
+    let mut markup = String::new();
+    let mut rest = page;
+    while let Some(at) = ["<script", "<style"].iter().filter_map(|tag| rest.find(tag)).min() {
+        let open = at + rest[at..].find('>').unwrap() + 1;
+        let close = if rest[at..].starts_with("<script") { "</script>" } else { "</style>" };
+        let end = open + rest[open..].find(close).unwrap();
+        markup += &rest[..open];
+        rest = &rest[end..];
+        markup += close;
+        rest = &rest[close.len()..];
+    }
+    (markup + rest).replace("<!DOCTYPE html>", "")
+}
+
+/// Every tag is closed, every attribute quoted: the page reads as XML.
+#[track_caller]
+fn check_well_formed(outcome: &Outcome) -> String {
+    let markup = markup_only(&report_html(outcome));
+    if let Err(error) = roxmltree::Document::parse(&markup) {
+        let line = markup.lines().nth(error.pos().row as usize - 1).unwrap();
+        panic!("{error}\n{line}");
+    }
+    markup
+}
+
+#[test]
+fn the_page_is_well_formed_for_one_case_and_for_several() {
+    check_well_formed(&sample::single());
+    check_well_formed(&sample::compared());
+}
+
+#[test]
+fn names_that_look_like_markup_stay_text() {
+    let outcome = sample::hostile();
+    let markup = check_well_formed(&outcome);
+    let page = roxmltree::Document::parse(&markup).unwrap();
+    let scripts = page.descendants().filter(|node| node.has_tag_name("script")).count();
+    assert_eq!(scripts, 3, "data, the plot library, the page's own script");
+    assert!(page.descendants().all(|node| !node.has_attribute("onclick")));
+    assert!(page.descendants().all(|node| !node.has_tag_name("b")));
+    let title = page.descendants().find(|node| node.has_tag_name("h1")).unwrap();
+    let shown: String = outcome.mission.replace('\u{1b}', "\u{fffd}");
+    assert_eq!(title.text(), Some(shown.as_str()));
+}
+
+#[test]
+fn nothing_in_the_page_is_loaded_from_elsewhere() {
+    for outcome in [sample::single(), sample::compared()] {
+        let page = report_html(&outcome);
+        let licence = "/*! https://github.com/leeoniya/uPlot (v1.6.32) */";
+        let rest = page.replacen(licence, "", 1);
+        assert_ne!(page, rest, "the licence comment of the plot library stays in the page");
+        for sign in ["http://", "https://", "@import", "url(", "src=", "fetch(", "XMLHttpRequest"] {
+            assert!(!rest.contains(sign), "the page holds {sign}");
+        }
+        let markup = markup_only(&page);
+        let document = roxmltree::Document::parse(&markup).unwrap();
+        for node in document.descendants() {
+            let href = node.attribute("href").unwrap_or("#");
+            assert!(href.starts_with('#'), "a link leads to {href}");
+        }
+        assert!(markup.contains("default-src 'none'"));
+    }
+}
+
+#[test]
+fn every_anchor_that_is_linked_to_exists_once() {
+    for outcome in [sample::single(), sample::compared(), sample::hostile()] {
+        let markup = check_well_formed(&outcome);
+        let page = roxmltree::Document::parse(&markup).unwrap();
+        let ids: Vec<_> = page.descendants().filter_map(|node| node.attribute("id")).collect();
+        for node in page.descendants() {
+            if let Some(anchor) = node.attribute("href") {
+                let same = ids.iter().filter(|id| **id == &anchor[1..]).count();
+                assert_eq!(same, 1, "{anchor}");
+            }
+        }
+    }
+}
+
+#[test]
+fn drawings_hold_finite_numbers_only() {
+    let mut outcome = sample::single();
+    let snapshots = &mut outcome.cases[0].snapshots;
+    snapshots[3].tool[1] = f64::NAN;
+    snapshots[7].boxes[0].corners[2][0] = f64::INFINITY;
+    snapshots[9].arms[0][1][2] = 1e300;
+    let markup = check_well_formed(&outcome);
+    let page = roxmltree::Document::parse(&markup).unwrap();
+    let drawings = page.descendants().filter(|node| node.has_tag_name("svg"));
+    let mut numbers = 0;
+    for node in drawings.flat_map(|svg| svg.descendants()) {
+        let names = ["points", "d", "x", "y", "cx", "cy", "width", "height", "viewBox", "opacity"];
+        for value in names.iter().filter_map(|name| node.attribute(*name)) {
+            let figures = value.split(|c: char| " ,MLHV".contains(c)).filter(|f| !f.is_empty());
+            for figure in figures {
+                let number: f64 = figure.parse().unwrap();
+                assert!((-1e4..1e4).contains(&number), "{value}");
+                numbers += 1;
+            }
+        }
+    }
+    assert!(numbers > 1000, "{numbers} numbers were looked at");
+}
+
+#[test]
+fn what_cannot_be_drawn_or_plotted_leaves_a_page_all_the_same() {
+    let mut outcome = sample::single();
+    let case = &mut outcome.cases[0];
+    case.snapshots.clear();
+    case.telemetry.channels.clear();
+    (case.verdicts, case.events, case.plan) = (vec![], vec![], vec![]);
+    let markup = check_well_formed(&outcome);
+    assert!(!markup.contains("<svg"));
+    outcome.cases.clear();
+    assert!(check_well_formed(&outcome).contains("no case was run"));
+    assert_eq!(verdict_table(&outcome), "the mission has no cases\n");
+}
+
+#[test]
+fn a_page_of_many_long_cases_stays_within_four_megabytes_and_says_what_it_leaves_out() {
+    let mut outcome = sample::single();
+    let first = outcome.cases.remove(0);
+    let numbered =
+        |k: usize| CaseOutcome { labels: vec![("row".into(), k.to_string())], ..first.clone() };
+    outcome.cases = (0..200).map(numbered).collect();
+    let page = report_html(&outcome);
+    // Measured 3.51e6 bytes.
+    assert!(page.len() < 4_000_000, "{} bytes", page.len());
+    assert!(page.contains("of 200 cases are shown closely"), "the page says what it leaves out");
+}
+
+#[test]
+fn the_same_outcome_gives_the_same_page() {
+    assert_eq!(report_html(&sample::compared()), report_html(&sample::compared()));
+}

@@ -1,0 +1,49 @@
+//! The table in the terminal.
+
+mod sample;
+
+use wrasse_record::verdict_table;
+
+#[test]
+fn a_single_case_shows_its_verdicts_and_a_line_each_for_momentum_and_energy() {
+    let expected = "
+requirement               limit    value  unit   verdict
+tool.position_error.max  <= 0.3  0.01234  mm     pass
+base.attitude_error.max  <= 0.5   0.0831  deg    pass
+joint.rate.max             <= 5    4.327  deg/s  pass
+actuator.momentum.max     <= 25    23.45  N·m·s  pass
+
+momentum  ledger closes: angular 3.1e-14 of 48.2 N·m·s unexplained (6.4e-16, bound 1.0e-12); linear 1.2e-14 of 14.6 N·s unexplained (8.2e-16, bound 1.0e-12)
+energy    ledger closes: 2.4e-12 of 0.391 J unexplained (6.1e-12, bound 1.0e-8); joints 0.0123 J, actuator -0.0123 J, outside 0 J, grasps 0 J
+";
+    assert_eq!(format!("\n{}", verdict_table(&sample::single())), expected);
+}
+
+#[test]
+fn compared_cases_share_one_table_with_a_row_for_each() {
+    let expected = "
+                                                            tool           tool      base            tool
+                                               along_track_error  lateral_error  rotation  position_error
+                                                           final          final     final             max
+law            load     outcome                               mm             mm       deg              mm  verdict
+terrestrial    unladen  completed                        -15.598         4.6817    0.0831          15.612  FAIL
+terrestrial    200 kg   completed                        -70.198         21.062    0.0831          70.212  FAIL
+terrestrial    500 kg   completed                         -124.8         37.442    0.0831          124.81  FAIL
+attitude-held  unladen  completed                         0.0021         0.0017    0.0831         0.01234  pass
+attitude-held  200 kg   completed                         0.0021         0.0017    0.0831         0.01234  pass
+attitude-held  500 kg   completed                         0.0021         0.0017    0.0831         0.01234  pass
+free-floating  unladen  completed                         0.0021         0.0017    0.0831         0.01234  pass
+free-floating  200 kg   completed                         0.0021         0.0017    0.0831         0.01234  pass
+free-floating  500 kg   infeasible at 13.28 s                  -              -         -               -  FAIL
+
+5 of 9 cases pass
+law=terrestrial, load=unladen: tool.position_error.max <= 0.3 mm fails with 15.612 mm
+law=terrestrial, load=200 kg: tool.position_error.max <= 0.3 mm fails with 70.212 mm
+law=terrestrial, load=500 kg: tool.position_error.max <= 0.3 mm fails with 124.81 mm
+law=free-floating, load=500 kg: infeasible in phase reach at 13.28 s: the wrist is 0.8731 m from the shoulder, the arm reaches 0.8500 m: the base recoils away from the target
+
+momentum  ledger closes: angular 3.1e-14 of 48.2 N·m·s unexplained (6.4e-16, bound 1.0e-12); linear 1.2e-14 of 14.6 N·s unexplained (8.2e-16, bound 1.0e-12) (worst of the cases: law=terrestrial, load=unladen)
+energy    ledger closes: 2.4e-12 of 0.391 J unexplained (6.1e-12, bound 1.0e-8); joints 0.0123 J, actuator -0.0123 J, outside 0 J, grasps 0 J
+";
+    assert_eq!(format!("\n{}", verdict_table(&sample::compared())), expected);
+}
