@@ -4,6 +4,7 @@
 mod architecture;
 mod book;
 mod dependencies;
+mod printed_reactions;
 mod source_text;
 
 use std::fs;
@@ -12,7 +13,7 @@ use std::path::{Path, PathBuf};
 /// A rule: its name, and what it finds in the repository at a path.
 type Rule = (&'static str, fn(&Path) -> Vec<String>);
 
-const RULES: [Rule; 12] = [
+const RULES: [Rule; 13] = [
     ("the map is at most two pages and its paths exist", architecture::map),
     ("every crate has its paragraph in the map", architecture::crates_described),
     ("every external dependency has its reason in the map", architecture::dependency_reasons),
@@ -25,6 +26,7 @@ const RULES: [Rule; 12] = [
     ("every algorithm has its theory page, with all its heads", book::theory_pages),
     ("the tests that the book names exist", book::named_tests),
     ("the summary lists every page, and links between pages lead somewhere", book::links),
+    ("the table of printed reactions is that of the data", printed_reactions::table),
 ];
 
 /// Print the findings of all rules.
