@@ -116,7 +116,7 @@
     };
   }
 
-  function build(box, plot, events) {
+  function build(box, plot, events, width) {
     const units = [...new Set(plot.lines.map((line) => line.unit))];
     const part = document.createElement("div");
     const title = document.createElement("h4");
@@ -128,18 +128,18 @@
     part.append(title);
     box.append(part);
     const data = [numbers(plot.time), ...plot.lines.map((line) => numbers(line.values))];
-    const chart = new uPlot(options(plot, events, part.clientWidth), data, part);
+    const chart = new uPlot(options(plot, events, width || part.clientWidth), data, part);
     drawn.push({ chart, part });
   }
 
-  function draw() {
+  function draw(width) {
     drawn.forEach(({ chart, part }) => { chart.destroy(); part.remove(); });
     drawn = [];
     const box = sections[shown] && sections[shown].querySelector(".plots");
     const data = cases[shown];
     if (!box || !data) return;
     box.querySelectorAll(".noscript").forEach((note) => note.remove());
-    data.plots.forEach((plot) => build(box, plot, data.events));
+    data.plots.forEach((plot) => build(box, plot, data.events, width));
   }
 
   function fit() {
@@ -189,19 +189,20 @@
         const down = head.getAttribute("aria-sort") === "ascending";
         [...table.tHead.rows[0].cells].forEach((other) => other.removeAttribute("aria-sort"));
         head.setAttribute("aria-sort", down ? "descending" : "ascending");
-        const rows = [...body.rows].sort((a, b) => compare(a.cells[column], b.cells[column]));
-        body.append(...(down ? rows.reverse() : rows));
+        const sign = down ? -1 : 1;
+        body.append(...[...body.rows].sort((a, b) => compare(a.cells[column], b.cells[column], sign)));
       });
     });
   }
 
-  // Figures by value, words by alphabet; what is missing comes last.
-  function compare(a, b) {
-    const [left, right] = [a, b].map((cell) => Number.parseFloat(cell.textContent));
-    if (a.className === "n" || b.className === "n") {
-      return (Number.isNaN(left) ? Infinity : left) - (Number.isNaN(right) ? Infinity : right) || 0;
+  // Figures by value, words by alphabet; what is missing comes last either way.
+  function compare(a, b, sign) {
+    if (a.className !== "n") {
+      return sign * a.textContent.localeCompare(b.textContent, undefined, { numeric: true });
     }
-    return a.textContent.localeCompare(b.textContent, undefined, { numeric: true });
+    const [left, right] = [a, b].map((cell) => Number.parseFloat(cell.textContent));
+    if (Number.isNaN(left) || Number.isNaN(right)) return Number.isNaN(left) - Number.isNaN(right);
+    return sign * (left - right);
   }
 
   document.querySelectorAll("table.comparison").forEach(sortable);
@@ -218,7 +219,8 @@
     cancelAnimationFrame(waiting);
     waiting = requestAnimationFrame(fit);
   });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", draw);
-  addEventListener("beforeprint", () => { document.documentElement.dataset.print = ""; draw(); });
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => draw());
+  // On paper: light colours, two plots side by side on A4 or letter.
+  addEventListener("beforeprint", () => { document.documentElement.dataset.print = ""; draw(335); });
   addEventListener("afterprint", () => { delete document.documentElement.dataset.print; draw(); });
 })();

@@ -5,7 +5,7 @@ use wrasse_mission::{CaseOutcome, Ledger, Metric, Verdict};
 use crate::comparison::{quantity, reason};
 use crate::drawing::drawing;
 use crate::ledger_rests::ledger_rests;
-use crate::markup::{escaped, figure, table, verdict_mark, words};
+use crate::markup::{dotted, escaped, figure, table, verdict_mark, words};
 use crate::numbers::{power, significant};
 
 /// Where a case stands in the page.
@@ -66,7 +66,7 @@ fn verdicts(case: &CaseOutcome) -> String {
 fn verdict_row(verdict: &Verdict) -> Vec<String> {
     let value = verdict.value.map_or("none".to_owned(), significant);
     vec![
-        words(quantity(&verdict.requirement, &verdict.comparison)),
+        format!("<td>{}</td>", dotted(quantity(&verdict.requirement, &verdict.comparison))),
         figure(&format!("{} {}", verdict.comparison, significant(verdict.limit))),
         figure(&value),
         words(&verdict.unit),

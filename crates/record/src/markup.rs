@@ -44,6 +44,11 @@ pub(crate) fn words(text: &str) -> String {
     format!("<td>{}</td>", escaped(text))
 }
 
+/// A name of parts with dots, which may break after each dot.
+pub(crate) fn dotted(name: &str) -> String {
+    escaped(name).replace('.', ".<wbr/>")
+}
+
 /// A cell of figures, right-aligned.
 pub(crate) fn figure(text: &str) -> String {
     format!("<td class=\"n\">{}</td>", escaped(text))

@@ -4,7 +4,7 @@ use wrasse_mission::{CaseOutcome, Outcome, VehicleCard};
 
 use crate::case_sections::{Place, case_sections};
 use crate::comparison::{case_name, comparison};
-use crate::markup::{escaped, figure, json_in_script, table, verdict_mark, words};
+use crate::markup::{dotted, escaped, figure, json_in_script, table, verdict_mark, words};
 use crate::numbers::significant;
 use crate::plots::{FEWEST_SAMPLES, NUMBERS, numbers_per_sample, plot_data};
 use crate::summary::passed;
@@ -138,8 +138,7 @@ fn comparison_section(outcome: &Outcome, shown: usize) -> String {
     let mut head: Vec<String> = compared.axes.iter().map(|axis| escaped(axis)).collect();
     head.push("Outcome".to_owned());
     for column in &compared.columns {
-        // A name breaks at its dots, so that narrow figures do not stand in wide columns.
-        let name = escaped(column.name).replace('.', ".<wbr/>");
+        let name = dotted(column.name);
         head.push(format!("{name} <small>{}</small>", escaped(column.unit)));
     }
     head.push("Verdict".to_owned());

@@ -3,7 +3,7 @@
 
 mod sample;
 
-use wrasse_mission::{CaseOutcome, Outcome};
+use wrasse_mission::{CaseOutcome, End, Ledger, Outcome};
 use wrasse_record::{report_html, verdict_table};
 
 /// The page without what browsers do not read as markup: contents of scripts and styles.
@@ -125,6 +125,25 @@ fn what_cannot_be_drawn_or_plotted_leaves_a_page_all_the_same() {
     outcome.cases.clear();
     assert!(check_well_formed(&outcome).contains("no case was run"));
     assert_eq!(verdict_table(&outcome), "the mission has no cases\n");
+}
+
+#[test]
+fn a_run_that_broke_down_leaves_a_page_and_a_table() {
+    let mut outcome = sample::single();
+    let case = &mut outcome.cases[0];
+    case.end = End::Breakdown { time_s: 3.0, reason: "rate of body link2 is NaN".into() };
+    case.ledger = Ledger { energy_rest: f64::NAN, angular_end: [f64::NAN; 3], ..case.ledger };
+    case.ledger.closes = false;
+    case.verdicts[0].value = Some(f64::INFINITY);
+    for channel in &mut case.telemetry.channels {
+        channel.values[300..].fill(f64::NAN);
+    }
+    case.snapshots.iter_mut().skip(3).for_each(|s| s.arms[0][2] = [f64::NAN; 3]);
+    let markup = check_well_formed(&outcome);
+    assert!(markup.contains("breakdown at 3 s: rate of body link2 is NaN"));
+    assert!(markup.contains("stays open"));
+    let table = verdict_table(&outcome);
+    assert!(table.contains("breakdown at 3 s") && table.contains("LEDGER OPEN"), "{table}");
 }
 
 #[test]
