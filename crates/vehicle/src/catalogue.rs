@@ -26,10 +26,14 @@ macro_rules! entry {
     };
 }
 
-static CATALOGUE: [CatalogueEntry; 3] = [
+static CATALOGUE: [CatalogueEntry; 7] = [
     entry!("atlas-class", "toml"),
     entry!("atlas-class-two-arms", "toml"),
+    entry!("etsvii", "toml"),
+    entry!("shuttle-rms", "toml"),
+    entry!("ssrms", "toml"),
     entry!("planar-two-link", "toml"),
+    entry!("example-arm", "urdf"),
 ];
 
 /// All vehicles of the catalogue.
