@@ -68,7 +68,7 @@ struct Problem<'a, T, const J: usize> {
     X_NE: &'a Pose<T>,
     limits: &'a [JointLimits<T>; J],
     held: Held,
-    /// The centre of mass that is held (m).
+    /// Where the centre of mass is (m).
     p_NScm: Vec3<T>,
 }
 
@@ -268,4 +268,32 @@ fn damped_solution<T: Scalar, const J: usize>(
         way[j] = (0..6).fold(T::zero(), |sum, i| sum + column[i] * y[i]);
     }
     way
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wrasse_spatial::vec3;
+
+    /// The worst case of the bound: one direction whose singular value is λ itself.
+    #[test]
+    fn a_damped_step_is_at_most_the_error_over_twice_the_damping() {
+        let lambda = 0.3_f64;
+        for stiffness in [0.0, 1e-9, 0.1, 0.3, 0.9, 5.0] {
+            let column = SpatialVelocity::new(vec3(0.0, stiffness, 0.0), Vec3::zero());
+            let error = SpatialVelocity::new(vec3(0.0, 2.0, 0.0), vec3(0.0, 0.0, 0.0));
+            let [way] = damped_solution(&[column], &[true], &error, lambda * lambda);
+            let expected = stiffness * 2.0 / (stiffness * stiffness + lambda * lambda);
+            assert!((way - expected).abs() < 4e-15, "{way} {expected}");
+            assert!(way <= 2.0 / (2.0 * lambda) * (1.0 + 1e-15), "{way}");
+        }
+    }
+
+    #[test]
+    fn a_joint_that_is_not_free_takes_no_part_in_the_step() {
+        let column = |x| SpatialVelocity::new(vec3(x, 0.0, 0.0), Vec3::zero());
+        let error = column(1.0);
+        let way = damped_solution(&[column(1.0), column(2.0)], &[true, false], &error, 1.0);
+        assert_eq!(way, [0.5, 0.0]);
+    }
 }

@@ -94,6 +94,26 @@ fn fifth() -> Vec3<f64> {
     vec3(-(0.8_f64.sin()), 0.0, 0.8_f64.cos())
 }
 
+/// The ATLAS-class arm behind a two-joint arm that holds 150 kg.
+pub(crate) fn two_arms() -> (Robot<f64, 9>, Frame<f64>) {
+    let (one, tool) = atlas_class();
+    let matter = |body| Payload { M_F_F: *one.inertia(body), ..Payload::default() };
+    let heavy = Payload::from_central(150.0, vec3(0.3, 0.2, -0.1), Sym3::diagonal(9.0, 8.0, 7.0));
+    let mount = Pose::from_quat(Quat::exp(vec3(0.3, 0.1, -0.2)), vec3(0.9, -0.5, 0.0));
+    let mut links = vec![
+        (Joint::new(BodyId::Base, JointKind::Revolute, mount, vec3(0.2, 0.3, 0.9)), heavy),
+        (Joint::new(BodyId::Link(0), JointKind::Prismatic, mount, vec3(0.5, -0.3, 0.1)), heavy),
+    ];
+    for j in 0..7 {
+        let parent = if j == 0 { BodyId::Base } else { BodyId::Link(j + 1) };
+        let joint = one.joint(j);
+        let joint = Joint::new(parent, joint.kind, joint.X_PB_zero, joint.axis_B);
+        links.push((joint, matter(BodyId::Link(j))));
+    }
+    let tool = Frame { body: BodyId::Link(8), ..tool };
+    (Robot::new(matter(BodyId::Base), &links).expect("parents come first"), tool)
+}
+
 /// Distance (m) and angle (rad) between two poses.
 pub(crate) fn difference(a: &Pose<f64>, b: &Pose<f64>) -> (f64, f64) {
     let turn = Quat::from_matrix(&(a.rotation.transpose() * b.rotation)).log().norm();

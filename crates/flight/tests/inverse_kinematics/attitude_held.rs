@@ -2,11 +2,12 @@
 
 use crate::arms::{
     atlas_class, atlas_class_with_offset, cases, cube, difference, tool_from_centre_of_mass,
+    two_arms,
 };
 use proptest::prelude::*;
-use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, Payload, Robot};
+use wrasse_dynamics::{Frame, Robot};
 use wrasse_flight::inverse_kinematics::{ArmChain, ClosedForm, SphericalRevoluteSpherical};
-use wrasse_spatial::{Pose, Quat, Sym3, Vec3, vec3};
+use wrasse_spatial::{Pose, Quat, Vec3, vec3};
 
 /// Largest pose error, largest number of passes, and number of solutions, at the pose of `q`.
 fn round_trip<const J: usize>(
@@ -149,24 +150,4 @@ fn the_shortened_arm_reaches_less() {
     let outcome = held.solve(&further, 0.0, &[0.0; 7]);
     let ClosedForm::OutOfReach { distance, .. } = outcome else { panic!("{outcome:?}") };
     assert!((distance - reach - 0.01).abs() < 1e-15, "{distance}");
-}
-
-/// The ATLAS-class arm behind a two-joint arm that holds 150 kg.
-fn two_arms() -> (Robot<f64, 9>, Frame<f64>) {
-    let (one, tool) = atlas_class();
-    let matter = |body| Payload { M_F_F: *one.inertia(body), ..Payload::default() };
-    let heavy = Payload::from_central(150.0, vec3(0.3, 0.2, -0.1), Sym3::diagonal(9.0, 8.0, 7.0));
-    let mount = Pose::from_quat(Quat::exp(vec3(0.3, 0.1, -0.2)), vec3(0.9, -0.5, 0.0));
-    let mut links = vec![
-        (Joint::new(BodyId::Base, JointKind::Revolute, mount, vec3(0.2, 0.3, 0.9)), heavy),
-        (Joint::new(BodyId::Link(0), JointKind::Prismatic, mount, vec3(0.5, -0.3, 0.1)), heavy),
-    ];
-    for j in 0..7 {
-        let parent = if j == 0 { BodyId::Base } else { BodyId::Link(j + 1) };
-        let joint = one.joint(j);
-        let joint = Joint::new(parent, joint.kind, joint.X_PB_zero, joint.axis_B);
-        links.push((joint, matter(BodyId::Link(j))));
-    }
-    let tool = Frame { body: BodyId::Link(8), ..tool };
-    (Robot::new(matter(BodyId::Base), &links).expect("parents come first"), tool)
 }

@@ -4,3 +4,4 @@
 mod arms;
 mod attitude_held;
 mod closed_form;
+mod damped_least_squares;
