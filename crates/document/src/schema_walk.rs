@@ -84,6 +84,9 @@ impl<'a> Walk<'a> {
                 if let Some(words) = words(schema) {
                     self.word(&words, name, word, &item.span);
                 }
+                if word.is_empty() && schema["minLength"].as_u64() > Some(0) {
+                    self.complain(item.span.clone(), format!("{name} must not be empty"), "empty");
+                }
             }
             Value::Float(number) => self.number(schema, name, *number, &item.span),
             Value::Integer(number) => self.number(schema, name, *number as f64, &item.span),

@@ -10,6 +10,7 @@ use wrasse_document::{Complaint, Document, at, render};
 #[serde(deny_unknown_fields)]
 struct Craft {
     /// What it is called.
+    #[schemars(length(min = 1))]
     name: String,
     #[serde(default)]
     body: Vec<Body>,
@@ -136,6 +137,7 @@ color = 'red'
 
 #[test]
 fn a_missing_key_says_what_it_is_for() {
+    assert_complains("name = ''", &["`name` must not be empty"]);
     assert_complains("", &["the file has no `name`", "help: `name`: What it is called"]);
     assert_complains(
         "name = 'a'\n[[body]]\nname = 'bus'\n",

@@ -13,6 +13,7 @@ use std::collections::BTreeMap;
 #[serde(deny_unknown_fields)]
 pub(crate) struct VehicleFile {
     /// What it is called.
+    #[schemars(length(min = 1))]
     pub(crate) name: String,
     /// One line for lists and reports.
     pub(crate) summary: String,
@@ -41,11 +42,11 @@ pub(crate) struct VehicleFile {
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub(crate) enum SourceFile {
     /// They stand in this document: title, year, page or table.
-    Published(String),
+    Published(#[schemars(length(min = 1))] String),
     /// They were computed from published numbers, in this way.
-    Derived(String),
+    Derived(#[schemars(length(min = 1))] String),
     /// They were chosen, for this reason.
-    Assumed(String),
+    Assumed(#[schemars(length(min = 1))] String),
 }
 
 /// A rigid body. Without `mass_kg` it is a mere frame.
@@ -53,6 +54,7 @@ pub(crate) enum SourceFile {
 #[serde(deny_unknown_fields)]
 pub(crate) struct BodyFile {
     /// What it is called.
+    #[schemars(length(min = 1))]
     pub(crate) name: String,
     /// Mass (kg).
     pub(crate) mass_kg: Option<f64>,
@@ -61,6 +63,7 @@ pub(crate) struct BodyFile {
     /// Rotational inertia about a named point in named axes (kg·m²).
     pub(crate) inertia_kgm2: Option<InertiaFile>,
     /// Why mass properties that no rigid body can have are to be used all the same.
+    #[schemars(length(min = 1))]
     pub(crate) accept_nonphysical: Option<String>,
     /// What to draw. It has no effect on the motion.
     #[serde(default)]
@@ -190,12 +193,15 @@ pub(crate) enum KindFile {
 #[serde(deny_unknown_fields)]
 pub(crate) struct JointFile {
     /// What it is called.
+    #[schemars(length(min = 1))]
     pub(crate) name: String,
     /// How it moves.
     pub(crate) kind: KindFile,
     /// The body that carries it.
+    #[schemars(length(min = 1))]
     pub(crate) parent: String,
     /// The body that it carries.
+    #[schemars(length(min = 1))]
     pub(crate) child: String,
     /// Origin of the child's frame at zero travel, in the parent's frame (m).
     pub(crate) position_m: [f64; 3],
@@ -245,6 +251,7 @@ pub(crate) struct LimitsFile {
 #[serde(deny_unknown_fields)]
 pub(crate) struct ArmFile {
     /// What it is called.
+    #[schemars(length(min = 1))]
     pub(crate) name: String,
     /// Which of the two ways of attaching frames to links the rows follow.
     pub(crate) convention: ConventionFile,
@@ -274,6 +281,7 @@ pub(crate) enum ConventionFile {
 #[serde(deny_unknown_fields)]
 pub(crate) struct MountFile {
     /// The body that carries it.
+    #[schemars(length(min = 1))]
     pub(crate) on: String,
     /// Its origin, in the body's frame (m).
     pub(crate) position_m: [f64; 3],
@@ -286,8 +294,10 @@ pub(crate) struct MountFile {
 #[serde(deny_unknown_fields)]
 pub(crate) struct RowFile {
     /// What the joint is called.
+    #[schemars(length(min = 1))]
     pub(crate) joint: String,
     /// The body that it carries, one of `body`.
+    #[schemars(length(min = 1))]
     pub(crate) body: String,
     /// How it moves: `revolute`, `continuous` or `prismatic`.
     pub(crate) kind: KindFile,
@@ -309,8 +319,10 @@ pub(crate) struct RowFile {
 #[serde(deny_unknown_fields)]
 pub(crate) struct ToolFile {
     /// What it is called.
+    #[schemars(length(min = 1))]
     pub(crate) name: String,
     /// The body that carries it.
+    #[schemars(length(min = 1))]
     pub(crate) on: String,
     /// Its origin, in the body's frame (m).
     pub(crate) position_m: [f64; 3],
@@ -325,6 +337,7 @@ pub(crate) struct ToolFile {
 #[serde(deny_unknown_fields)]
 pub(crate) struct PostureFile {
     /// What it is called.
+    #[schemars(length(min = 1))]
     pub(crate) name: String,
     /// Positions of joints that turn, by name (deg).
     #[serde(default)]

@@ -114,13 +114,34 @@ pub(crate) fn limits(
         };
         reading.error(&under(path, "kind"), message, "how far?", help);
     }
+    let travel_m = in_order(reading, path, name, "m", file.travel_m);
+    let travel_deg = in_order(reading, path, name, "deg", file.travel_deg);
     JointLimits {
-        travel: file
-            .travel_deg
+        travel: travel_deg
             .map(|ends| ends.map(f64::to_radians))
-            .or(file.travel_m)
+            .or(travel_m)
             .map(|[lower, upper]| (lower, upper)),
         rate: file.rate_deg_s.map(f64::to_radians).or(file.rate_m_s),
         effort: file.effort_nm.or(file.effort_n),
     }
+}
+
+/// The ends of a travel, lower first; complains in the unit of the file if they are not.
+fn in_order(
+    reading: &mut Reading<'_>,
+    path: &[Step<'_>],
+    name: &str,
+    unit: &str,
+    travel: Option<[f64; 2]>,
+) -> Option<[f64; 2]> {
+    let [lower, upper] = travel?;
+    if lower <= upper {
+        return travel;
+    }
+    let key = format!("travel_{unit}");
+    let message = format!(
+        "the limits of joint '{name}' are reversed: lower {lower} {unit}, upper {upper} {unit}"
+    );
+    reading.error(&under(path, &key), message, "lower is above upper", "exchange them");
+    Some([upper, lower])
 }
