@@ -1,0 +1,23 @@
+//! Laws of mechanics and identities of the theory, on random trees. `--nocapture` prints how well
+//! each one holds.
+#![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
+#![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
+#![allow(clippy::print_stdout, reason = "prints what was measured, under --nocapture")]
+#![allow(clippy::cast_possible_truncation, reason = "a number below the number of joints")]
+
+#[path = "../random_robot/mod.rs"]
+mod random_robot;
+
+mod in_time;
+mod measure;
+
+mod barycentric_laws;
+mod equivalence_laws;
+mod forward_dynamics_laws;
+mod generalized_jacobian_laws;
+mod inverse_dynamics_laws;
+mod kinematics_laws;
+mod mass_matrix_laws;
+mod momentum_laws;
+mod reaction_laws;
+mod reduced_inertia_laws;
