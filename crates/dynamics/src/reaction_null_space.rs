@@ -12,8 +12,8 @@ pub fn angular_momentum_per_rate<T: Real, const J: usize>(M: &MassMatrix<T, J>) 
 
 /// `(1 - H_w⁺ H_w) ξ`: the part of the joint rates `ξ` that does not turn the base.
 ///
-/// Directions that the arm cannot turn the base about (a planar arm has two) drop out of `H_w`: a row
-/// of less than 1e-9 of the largest one is taken for round-off.
+/// Directions that the arm cannot turn the base about (a planar arm has two) drop out of `H_w`: what
+/// is left of a row beside the larger ones is taken for round-off below 1000 ε of the largest row.
 ///
 /// # Source
 /// [`Nenchev1992`](wrasse_spatial::references::Nenchev1992).
@@ -23,32 +23,56 @@ pub fn reaction_null_space<T: Real, const J: usize>(
     xi: &[T; J],
 ) -> [T; J] {
     let H_w = angular_momentum_per_rate(M);
-    let mut rows: [[T; J]; 3] = [H_w.map(|h| h.x), H_w.map(|h| h.y), H_w.map(|h| h.z)];
-    let dot = |a: &[T; J], b: &[T; J]| robot.joints().fold(T::zero(), |sum, j| sum + a[j] * b[j]);
-    let largest = rows.iter().fold(T::zero(), |m, r| m.max(dot(r, r)));
-    let floor = largest * T::from_f64(1e-18);
+    let rows = orthonormal([H_w.map(|h| h.x), H_w.map(|h| h.y), H_w.map(|h| h.z)], robot);
     let mut rates = *xi;
+    for row in &rows {
+        take_out(&mut rates, row, robot);
+    }
+    rates
+}
+
+fn dot<T: Real, const J: usize>(a: &[T; J], b: &[T; J], robot: &Robot<T, J>) -> T {
+    robot.joints().fold(T::zero(), |sum, j| sum + a[j] * b[j])
+}
+
+/// Orthonormal rows that span the same space; rows of round-off become zero.
+fn orthonormal<T: Real, const J: usize>(mut rows: [[T; J]; 3], robot: &Robot<T, J>) -> [[T; J]; 3] {
+    let mut largest = T::zero();
     for i in 0..3 {
-        // Gram–Schmidt, twice, so that the rows are orthogonal to round-off.
-        for _ in 0..2 {
-            for e in 0..i {
-                let along = dot(&rows[e], &rows[i]);
-                for j in robot.joints() {
-                    rows[i][j] -= along * rows[e][j];
-                }
+        // The largest of what is left goes first: a small row would pass on its round-off.
+        for e in i + 1..3 {
+            let larger = dot(&rows[i], &rows[i], robot).lt(dot(&rows[e], &rows[e], robot));
+            for j in robot.joints() {
+                let (a, b) = (rows[i][j], rows[e][j]);
+                (rows[i][j], rows[e][j]) = (T::select(larger, b, a), T::select(larger, a, b));
             }
         }
-        let square = dot(&rows[i], &rows[i]);
-        let counts = floor.lt(square);
-        let scale =
-            T::select(counts, T::one() / T::select(counts, square, T::one()).sqrt(), T::zero());
+        // Gram–Schmidt a second time, so that the rows are orthogonal to round-off.
+        for e in 0..i {
+            let done = rows[e];
+            take_out(&mut rows[i], &done, robot);
+        }
+        let square = dot(&rows[i], &rows[i], robot);
+        largest = largest.max(square);
+        let floor = T::from_f64(1e3) * T::epsilon();
+        let counts = (largest * floor * floor).lt(square);
+        let length = T::select(counts, square, T::one()).sqrt();
+        let scale = T::select(counts, T::one() / length, T::zero());
         for j in robot.joints() {
             rows[i][j] *= scale;
         }
-        let along = dot(&rows[i], &rates);
-        for j in robot.joints() {
-            rates[j] -= along * rows[i][j];
+        let done = rows[i];
+        for row in &mut rows[i + 1..] {
+            take_out(row, &done, robot);
         }
     }
-    rates
+    rows
+}
+
+/// Leave only what is across a unit row.
+fn take_out<T: Real, const J: usize>(row: &mut [T; J], unit: &[T; J], robot: &Robot<T, J>) {
+    let along = dot(unit, row, robot);
+    for j in robot.joints() {
+        row[j] -= along * unit[j];
+    }
 }

@@ -82,6 +82,10 @@ impl<T: Real> Real for Dual<T> {
         Self::new(T::from_f64(x), T::zero())
     }
     #[inline(always)]
+    fn epsilon() -> Self {
+        Self::new(T::epsilon(), T::zero())
+    }
+    #[inline(always)]
     fn sqrt(self) -> Self {
         let root = self.value.sqrt();
         Self::new(root, self.derivative / (root + root))

@@ -32,6 +32,9 @@ pub trait Real:
     type Mask: Copy;
     /// The nearest representable number.
     fn from_f64(x: f64) -> Self;
+    /// Distance from one to the next larger number (–): what round-off is measured in.
+    #[must_use]
+    fn epsilon() -> Self;
     /// Square root.
     #[must_use]
     fn sqrt(self) -> Self;
@@ -103,6 +106,10 @@ macro_rules! float {
             #[allow(clippy::cast_possible_truncation, reason = "f32 is asked for")]
             fn from_f64(x: f64) -> Self {
                 x as $float
+            }
+            #[inline(always)]
+            fn epsilon() -> Self {
+                <$float>::EPSILON
             }
             #[inline(always)]
             fn sqrt(self) -> Self {

@@ -19,5 +19,6 @@ mod inverse_dynamics_laws;
 mod kinematics_laws;
 mod mass_matrix_laws;
 mod momentum_laws;
+mod null_space_laws;
 mod reaction_laws;
 mod reduced_inertia_laws;
