@@ -93,8 +93,8 @@
     };
   }
 
-  function options(plot, events, width) {
-    const units = [...new Set(plot.lines.map((line) => line.unit))];
+  function options(lines, events, width, more) {
+    const units = [...new Set(lines.map((line) => line.unit))];
     const axes = [axis("x", "time (s)", { size: 26 })];
     const scales = { x: { time: false } };
     units.forEach((unit, k) => {
@@ -102,11 +102,11 @@
       const side = k === 0 ? {} : { side: 1, grid: { show: false } };
       if (k < 2) axes.push(axis("unit " + unit, unit, { size: widthOf, ...side }));
     });
-    const series = plot.lines.map((line, k) => ({
+    const series = lines.map((line, k) => ({
       label: units.length > 1 ? line.label + " (" + line.unit + ")" : line.label,
       scale: "unit " + line.unit, stroke: colour("line-" + (1 + (k % 8))), width: 1.5,
-      dash: k < 8 ? undefined : [6, 3],
-      value: (u, value) => digits(value, 5), points: { show: plot.drawn < 3 },
+      dash: [undefined, [6, 3], [2, 3], [8, 3, 2, 3]][Math.floor(k / 8) % 4],
+      value: (u, value) => digits(value, 5), ...more,
     }));
     return {
       width, height: 250, scales, axes,
@@ -128,13 +128,61 @@
     part.append(title);
     box.append(part);
     const data = [numbers(plot.time), ...plot.lines.map((line) => numbers(line.values))];
-    const chart = new uPlot(options(plot, events, width || part.clientWidth), data, part);
+    const chart = new uPlot(options(plot.lines, events, width || part.clientWidth), data, part);
     drawn.push({ chart, part });
+  }
+
+  // One quantity of all cases in one plot; their samples need not be at the same times.
+  function drawOverlay(width) {
+    const name = overlaid && overlaid.value;
+    const tables = [];
+    const lines = [];
+    cases.forEach((each) => each.plots.forEach((plot) => plot.lines.forEach((line) => {
+      if (line.name !== name) return;
+      tables.push([numbers(plot.time), numbers(line.values)]);
+      lines.push({ label: each.name, unit: line.unit });
+    })));
+    if (!lines.length) return;
+    const part = document.createElement("div");
+    overlaid.closest("#overlay").append(part);
+    const all = options(lines, [], width || part.clientWidth, { spanGaps: true, points: { show: false } });
+    all.cursor.dataIdx = nearestSample;
+    const chart = new uPlot(all, uPlot.join(tables), part);
+    drawn.push({ chart, part });
+  }
+
+  // The legend shows each case's sample nearest to the cursor.
+  function nearestSample(u, series, at) {
+    const values = u.data[series];
+    for (let away = 0; away < 100; away += 1) {
+      if (values[at - away] != null) return at - away;
+      if (values[at + away] != null) return at + away;
+    }
+    return at;
+  }
+
+  function overlayChooser() {
+    const place = document.getElementById("overlay");
+    const quantities = new Map();
+    cases.forEach((each) => each.plots.forEach((plot) => plot.lines.forEach((line) => {
+      quantities.set(line.name, plot.title + ": " + line.label + " (" + line.unit + ")");
+    })));
+    if (!place || !quantities.size) return null;
+    const form = document.createElement("form");
+    const label = document.createElement("label");
+    const choice = document.createElement("select");
+    quantities.forEach((text, name) => choice.append(new Option(text, name)));
+    label.append("One quantity of all cases ", choice);
+    form.append(label);
+    place.append(form);
+    choice.addEventListener("change", () => draw());
+    return choice;
   }
 
   function draw(width) {
     drawn.forEach(({ chart, part }) => { chart.destroy(); part.remove(); });
     drawn = [];
+    drawOverlay(width && 2 * width);
     const box = sections[shown] && sections[shown].querySelector(".plots");
     const data = cases[shown];
     if (!box || !data) return;
@@ -150,6 +198,7 @@
     });
   }
 
+  const overlaid = overlayChooser();
   const select = document.querySelector("#chooser select");
   const links = [...document.querySelectorAll('.comparison a[href^="#case-"]')];
 

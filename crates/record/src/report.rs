@@ -162,7 +162,8 @@ fn comparison_section(outcome: &Outcome, shown: usize) -> String {
         .collect();
     let head: Vec<&str> = head.iter().map(String::as_str).collect();
     format!(
-        "<section id=\"cases\">\n<h2><a href=\"#cases\">The cases compared</a></h2>\n{}</section>\n",
+        "<section id=\"cases\">\n<h2><a href=\"#cases\">The cases compared</a></h2>\n{}\
+         <div id=\"overlay\"></div>\n</section>\n",
         table("comparison", &head, &rows)
     )
 }
