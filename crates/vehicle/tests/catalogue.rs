@@ -1,10 +1,12 @@
 //! The vehicles that come with wrasse.
 
+#![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
+
 use std::path::Path;
 use wrasse_document::{Severity, render};
-use wrasse_dynamics::BodyId;
+use wrasse_dynamics::{BodyId, State, generalized_jacobian, jacobian, kinematics, mass_matrix};
 use wrasse_spatial::Vec3;
-use wrasse_vehicle::{NoVehicle, Vehicle, catalogue, find_vehicle, read_vehicle};
+use wrasse_vehicle::{JOINTS, NoVehicle, Vehicle, catalogue, find_vehicle, read_vehicle};
 
 fn vehicle(name: &str) -> Vehicle {
     match find_vehicle(name, None) {
@@ -102,6 +104,33 @@ fn each_arm_of_the_two_armed_vehicle_is_the_arm_of_the_one_armed() {
     assert_eq!(two.tools, ["a_tool", "b_tool"]);
     let (start, both) = (one.posture("sideways_1m").unwrap(), two.posture("sideways_1m").unwrap());
     assert_eq!(start.q[..], both.q[..7]);
+}
+
+/// Determinant of the generalized Jacobian's x and y rows (m²) at two joint angles (deg).
+fn planar_determinant(vehicle: &Vehicle, deg: [f64; 2]) -> f64 {
+    let mut state = State::<f64, JOINTS>::default();
+    state.q[..2].copy_from_slice(&deg.map(f64::to_radians));
+    let poses = kinematics(&vehicle.robot, &state);
+    let J_tool = jacobian(&poses, &vehicle.frame("tool").expect("a tool"));
+    let J = generalized_jacobian(&J_tool, &mass_matrix(&poses));
+    J[0].linear.x * J[1].linear.y - J[1].linear.x * J[0].linear.y
+}
+
+#[test]
+fn the_planar_vehicle_is_singular_at_its_dynamic_singularity() {
+    let planar = vehicle("planar-two-link");
+    // Its posture is given to six decimals of a degree.
+    let posture = planar.posture("dynamic_singularity").unwrap();
+    let at_root = planar_determinant(&planar, [posture.q[0], posture.q[1]].map(f64::to_degrees));
+    assert!(at_root.abs() < 1e-8, "measured 3.2e-9: {at_root:e}");
+    // Elsewhere: figures of an independent calculation for the planar case alone.
+    for (deg, expected) in
+        [([0.0, 30.0], 0.156_718), ([0.0, 90.0], 0.376_019), ([-65.0, -5.0], 0.043_425)]
+    {
+        let found = planar_determinant(&planar, deg);
+        assert!((found - expected).abs() < 5e-7, "rounded to six decimals: {found}");
+    }
+    assert!(planar_determinant(&planar, [-65.0, -20.0]) < -0.05);
 }
 
 #[test]
