@@ -7,7 +7,7 @@ use crate::arms::{
 use proptest::prelude::*;
 use wrasse_dynamics::{Frame, Robot};
 use wrasse_flight::inverse_kinematics::{ArmChain, ClosedForm, SphericalRevoluteSpherical};
-use wrasse_spatial::{Pose, Quat, Vec3, vec3};
+use wrasse_spatial::{Mat3, Pose, Quat, Vec3, vec3};
 
 /// Largest pose error, largest number of passes, and number of solutions, at the pose of `q`.
 fn round_trip<const J: usize>(
@@ -150,4 +150,88 @@ fn the_shortened_arm_reaches_less() {
     let outcome = held.solve(&further, 0.0, &[0.0; 7]);
     let ClosedForm::OutOfReach { distance, .. } = outcome else { panic!("{outcome:?}") };
     assert!((distance - reach - 0.01).abs() < 1e-15, "{distance}");
+}
+
+/// Start postures of the three miss-distance moves: tool from the mount (m), direction, distance (m), and the
+/// joint positions (deg) that another code found for the tool parallel to the base.
+const MOVES: [(Vec3<f64>, Vec3<f64>, [f64; 7]); 3] = [
+    (
+        vec3(0.7, -0.5, -0.1),
+        vec3(0.0, 1.0, 0.0),
+        [
+            55.619_702_321,
+            -35.191_746_917,
+            -90.459_688_812,
+            65.812_613_568,
+            -37.635_466_16,
+            -70.693_674_402,
+            49.244_939_521,
+        ],
+    ),
+    (
+        vec3(0.65, -0.2, -0.1),
+        vec3(0.0, 0.3, 0.0),
+        [
+            10.310_339_413,
+            -35.907_341_878,
+            -34.307_016_688,
+            107.791_590_573,
+            -19.778_031_938,
+            -77.655_586_423,
+            23.013_651_172,
+        ],
+    ),
+    (
+        vec3(0.45, -0.05, -0.15),
+        vec3(0.3, 0.0, 0.0),
+        [
+            2.317_925_347,
+            -29.576_694_11,
+            -12.535_063_33,
+            139.808_243_691,
+            -6.575_752_463,
+            -110.695_890_423,
+            6.293_140_398,
+        ],
+    ),
+];
+
+/// The joint positions are given to 1e-9 deg, 2e-11 rad.
+#[test]
+fn the_start_postures_are_found_again_from_their_tool_poses() {
+    let (robot, tool) = atlas_class();
+    let arm = SphericalRevoluteSpherical::fixed_base(&robot, &tool).unwrap();
+    let mut worst = 0.0_f64;
+    for (tool_from_mount, _, degrees) in MOVES {
+        let q = degrees.map(f64::to_radians);
+        let X_BE = Pose::new(Mat3::identity(), vec3(0.9, 0.5, 0.0) + tool_from_mount);
+        let outcome = arm.solve(&X_BE, arm.arm_angle(&q).0, &q);
+        let ClosedForm::Solved(solutions) = outcome else { panic!("{outcome:?}") };
+        let nearest = solutions.nearest().unwrap();
+        worst = (0..7).fold(worst, |m, j| m.max((nearest.q[j] - q[j]).abs()));
+    }
+    assert!(worst < 1e-10, "measured 2.2e-11: {worst:e}");
+}
+
+/// With 200 kg every move ends within the shortened arm; with 500 kg the one of a metre does not.
+#[test]
+fn a_metre_sideways_with_500_kg_ends_out_of_reach_and_nothing_else_does() {
+    let (unladen, tool) = atlas_class();
+    for mass in [0.0, 200.0, 500.0] {
+        let robot = unladen.with_payload(&tool, &cube(mass, Vec3::zero()));
+        for (k, (_, way, degrees)) in MOVES.into_iter().enumerate() {
+            let q = degrees.map(f64::to_radians);
+            let arm = SphericalRevoluteSpherical::attitude_held(&robot, &tool, &q).unwrap();
+            let start = arm.tool_pose(&q);
+            let end = Pose::new(start.rotation, start.translation + way);
+            match arm.solve(&end, arm.arm_angle(&q).0, &q) {
+                ClosedForm::OutOfReach { distance, reach } => {
+                    assert_eq!((mass, k), (500.0, 0));
+                    assert!(distance > reach, "measured 0.733 and 0.633: {distance} {reach}");
+                }
+                ClosedForm::Solved(_) => assert_ne!((mass, k), (500.0, 0)),
+                other => panic!("{mass} kg, move {k}: {other:?}"),
+            }
+        }
+    }
 }
