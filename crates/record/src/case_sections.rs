@@ -6,12 +6,10 @@ use crate::comparison::{quantity, reason};
 use crate::drawing::drawing;
 use crate::ledger_rests::ledger_rests;
 use crate::markup::{dotted, escaped, figure, table, verdict_mark, words};
-use crate::numbers::{power, significant};
+use crate::numbers::{beside_limit, power, significant};
 
 /// Where a case stands in the page.
 pub(crate) struct Place {
-    /// Number of the case, from 0.
-    pub(crate) case: usize,
     /// Level of its headings.
     pub(crate) level: usize,
     /// What its anchors begin with.
@@ -37,7 +35,7 @@ pub(crate) fn case_sections(case: &CaseOutcome, place: &Place) -> String {
     [
         place.section("verdicts", "Verdicts", &verdicts(case)),
         place.section("motion", "Motion", &drawing(&case.snapshots).unwrap_or_default()),
-        place.section("plots", "Plots", &plots(case, place)),
+        place.section("plots", "Plots", &plots(case)),
         place.section("plan", "Plan", &plan(case)),
         place.section("events", "Events", &events(case)),
         place.section("ledger", "Ledger", &ledger(&case.ledger)),
@@ -64,7 +62,7 @@ fn verdicts(case: &CaseOutcome) -> String {
 }
 
 fn verdict_row(verdict: &Verdict) -> Vec<String> {
-    let value = verdict.value.map_or("none".to_owned(), significant);
+    let value = verdict.value.map_or("none".to_owned(), |v| beside_limit(v, verdict.limit));
     vec![
         format!("<td>{}</td>", dotted(quantity(&verdict.requirement, &verdict.comparison))),
         figure(&format!("{} {}", verdict.comparison, significant(verdict.limit))),
@@ -104,17 +102,15 @@ fn significant_per_cent(share: f64) -> String {
     }
 }
 
-fn plots(case: &CaseOutcome, place: &Place) -> String {
+fn plots(case: &CaseOutcome) -> String {
     if case.telemetry.time.is_empty() || case.telemetry.channels.is_empty() {
         return String::new();
     }
-    format!(
-        "<p class=\"hint\">Drag across a plot to zoom, double-click to go back; all plots follow. \
-         Click a line's name to hide it. Numbered lines are the events below.</p>\n\
-         <div class=\"plots\" data-case=\"{}\"><p class=\"noscript\">The plots need JavaScript; \
-         their numbers are in telemetry.parquet.</p></div>\n",
-        place.case
-    )
+    "<p class=\"hint\">Drag across a plot to zoom, double-click to go back; all plots follow. \
+     Click a line's name to hide it. Numbered lines are the events below.</p>\n\
+     <div class=\"plots\"><p class=\"noscript\">The plots need JavaScript; their numbers are in \
+     telemetry.parquet.</p></div>\n"
+        .to_owned()
 }
 
 fn plan(case: &CaseOutcome) -> String {

@@ -18,6 +18,12 @@ pub(crate) fn significant(value: f64) -> String {
     }
 }
 
+/// `value` beside its `limit`: with all its digits where five would make it look like the limit.
+pub(crate) fn beside_limit(value: f64, limit: f64) -> String {
+    let short = significant(value);
+    if value != limit && short == significant(limit) { value.to_string() } else { short }
+}
+
 /// Two significant digits with an exponent, for bounds and ratios of which the power of ten is what matters.
 pub(crate) fn power(value: f64) -> String {
     if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
@@ -51,5 +57,12 @@ mod tests {
         for (value, text) in cases {
             assert_eq!(significant(value), text);
         }
+    }
+
+    #[test]
+    fn a_value_just_beyond_its_limit_does_not_look_like_it() {
+        assert_eq!(beside_limit(0.300_000_1, 0.3), "0.3000001");
+        assert_eq!(beside_limit(0.3, 0.3), "0.3");
+        assert_eq!(beside_limit(0.312_345_6, 0.3), "0.31235");
     }
 }

@@ -181,7 +181,7 @@ fn size_cell(value: Option<f64>, largest: f64) -> String {
 /// The sections of the cases, and for how many of them there is room.
 fn details(outcome: &Outcome) -> (String, usize) {
     if let [case] = outcome.cases.as_slice() {
-        let place = Place { case: 0, level: 2, anchor: String::new() };
+        let place = Place { level: 2, anchor: String::new() };
         let sections = case_sections(case, &place);
         return (format!("<div id=\"case-1\" class=\"case\">\n{sections}</div>\n"), 1);
     }
@@ -199,7 +199,7 @@ fn details(outcome: &Outcome) -> (String, usize) {
 }
 
 fn one_of_several(case: &CaseOutcome, k: usize) -> String {
-    let place = Place { case: k, level: 3, anchor: format!("case-{}-", k + 1) };
+    let place = Place { level: 3, anchor: format!("case-{}-", k + 1) };
     format!(
         "<section id=\"case-{}\" class=\"case\">\n<h2>{}</h2>\n{}</section>\n",
         k + 1,

@@ -4,7 +4,7 @@ use wrasse_mission::{CaseOutcome, Ledger, Outcome, Verdict};
 
 use crate::comparison::{Comparison, case_name, comparison, quantity, reason};
 use crate::ledger_rests::{Rest, ledger_rests};
-use crate::numbers::{power, significant};
+use crate::numbers::{beside_limit, power, significant};
 
 /// How a column stands.
 #[derive(Clone, Copy, PartialEq)]
@@ -40,7 +40,7 @@ fn verdicts(verdicts: &[Verdict]) -> String {
         rows.push([
             quantity(&verdict.requirement, &verdict.comparison).to_owned(),
             format!("{} {}", verdict.comparison, significant(verdict.limit)),
-            verdict.value.map_or("none".to_owned(), significant),
+            verdict.value.map_or("none".to_owned(), |value| beside_limit(value, verdict.limit)),
             verdict.unit.clone(),
             if verdict.pass { "pass" } else { "FAIL" }.to_owned(),
         ]);
@@ -71,7 +71,7 @@ fn compared(outcome: &Outcome, cases: &[CaseOutcome]) -> String {
 /// The requirements that were judged and do not hold; those without a value go with an early end.
 fn broken(verdicts: &[Verdict]) -> impl Iterator<Item = String> {
     verdicts.iter().filter(|verdict| !verdict.pass).filter_map(|verdict| {
-        let value = significant(verdict.value?);
+        let value = beside_limit(verdict.value?, verdict.limit);
         Some(format!("{} fails with {value} {}", verdict.requirement, verdict.unit))
     })
 }

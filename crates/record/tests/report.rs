@@ -88,6 +88,47 @@ fn every_anchor_that_is_linked_to_exists_once() {
     }
 }
 
+/// 32-bit floats, little-endian, in base64.
+fn singles(base64: &str) -> Vec<f32> {
+    let digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut bytes = Vec::new();
+    for group in base64.trim_end_matches('=').as_bytes().chunks(4) {
+        let digit = |c: &u8| u32::try_from(digits.find(char::from(*c)).unwrap()).unwrap();
+        let bits = group.iter().map(digit).fold(0_u32, |bits, digit| bits << 6 | digit);
+        let bits = bits << (6 * (4 - group.len()));
+        bytes.extend_from_slice(&bits.to_be_bytes()[1..group.len()]);
+    }
+    bytes.chunks(4).map(|four| f32::from_le_bytes(four.try_into().unwrap())).collect()
+}
+
+#[test]
+#[allow(clippy::cast_possible_truncation, reason = "the page holds 32-bit numbers")]
+fn the_plots_show_the_telemetry() {
+    let outcome = sample::single();
+    let page = report_html(&outcome);
+    let start = page.find("id=\"plot-data\">").unwrap() + "id=\"plot-data\">".len();
+    let json = &page[start..start + page[start..].find("</script>").unwrap()];
+    let data: serde_json::Value = serde_json::from_str(json).unwrap();
+    let telemetry = &outcome.cases[0].telemetry;
+    let mut lines = 0;
+    for plot in data[0]["plots"].as_array().unwrap() {
+        assert_eq!(plot["drawn"], telemetry.time.len());
+        let time: Vec<f32> = telemetry.time.iter().map(|t| *t as f32).collect();
+        assert_eq!(singles(plot["time"].as_str().unwrap()), time);
+        for line in plot["lines"].as_array().unwrap() {
+            let channel = telemetry.channels.iter().find(|c| line["name"] == c.name).unwrap();
+            let values: Vec<f32> = channel.values.iter().map(|v| *v as f32).collect();
+            assert_eq!(singles(line["values"].as_str().unwrap()), values);
+            assert_eq!(
+                (&line["unit"], &plot["title"]),
+                (&channel.unit.as_str().into(), &channel.plot.as_str().into())
+            );
+            lines += 1;
+        }
+    }
+    assert_eq!(lines, telemetry.channels.len());
+}
+
 #[test]
 fn drawings_hold_finite_numbers_only() {
     let mut outcome = sample::single();
