@@ -60,6 +60,10 @@ fn check_finite(link: &Link, matter: &Matter, found: &mut Findings) -> bool {
 /// meets it with equality, and its file rounds each number on its own.
 const ROUND_OFF: f64 = 1e-9;
 
+/// What to do about it.
+const IMPOSSIBLE: &str = "no rigid body is like this: is it about the centre of mass? A TOML file can \
+                          say `accept_nonphysical = \"reason\"` where published data are so";
+
 /// What a central inertia breaks, and how to mend it.
 fn wrong_with_inertia(name: &str, inertia: Sym3<f64>) -> Option<(String, &'static str)> {
     let moments = principal_moments(inertia);
@@ -80,7 +84,7 @@ fn wrong_with_inertia(name: &str, inertia: Sym3<f64>) -> Option<(String, &'stati
              kg·m² the largest exceeds the sum of the others by {} kg·m²",
             figures(c - a - b)
         );
-        (message, "no rigid body is like this: is the inertia about the centre of mass?")
+        (message, IMPOSSIBLE)
     })
 }
 

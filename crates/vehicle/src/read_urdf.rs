@@ -30,6 +30,9 @@ const ROBOT: Kind = Kind {
     ],
 };
 
+/// What to do with a xacro file.
+const EXPAND_XACRO: &str = "expand it first: `xacro FILE.xacro > vehicle.urdf`";
+
 /// The vehicle that a URDF file describes.
 ///
 /// # Errors
@@ -104,8 +107,8 @@ impl Reading<'_> {
         (links, outlines)
     }
 
-    /// Leaves out a root called `world` that carries the base by a floating joint: every base floats
-    /// here. Complains of other floating joints.
+    /// Leaves out a root called `world` that carries the base by a floating joint: every base
+    /// floats here. Complains of other floating joints.
     fn float_the_base(
         &mut self,
         links: &mut Vec<Link>,
@@ -127,8 +130,8 @@ impl Reading<'_> {
                 Type::Floating => self.refuse_floating(&joint, &kind_at),
                 Type::Fixed if joint.parent == "world" => {
                     let message = format!("'{}' is fixed to 'world', but floats here", joint.child);
-                    let help = "nothing holds a base in orbit; leave out 'world', or use a floating \
-                                joint";
+                    let help = "nothing holds a base in orbit; leave out 'world', or let its joint \
+                                be floating";
                     self.found.warning(&joint.parent_at, message, "not the ground", help);
                 }
                 _ => {}
@@ -165,7 +168,10 @@ fn not_xml(why: &roxmltree::Error, text: &str, mut found: Findings) -> Vec<Compl
     let at = byte_at(text, position.row, position.col);
     let told = why.to_string();
     let message = told.strip_suffix(&format!(" at {position}")).unwrap_or(&told);
-    let help = "the file must be well-formed XML with one <robot>";
+    let help = match why {
+        roxmltree::Error::UnknownNamespace(prefix, _) if prefix == "xacro" => EXPAND_XACRO,
+        _ => "the file must be well-formed XML with one <robot>",
+    };
     found.error(&at, format!("not XML: {message}"), "here", help);
     found.into_complaints()
 }
@@ -192,9 +198,13 @@ fn refuse_other_formats(
     let is_xacro = |uri: Option<&str>| uri.is_some_and(|uri| uri.contains("xacro"));
     let mut xacro = root.descendants().filter(|node| is_xacro(node.tag_name().namespace()));
     if let Some(first) = xacro.next() {
-        let help = "expand it first: `xacro FILE.xacro > vehicle.urdf`";
         let at = tag_at(first, text);
-        found.error(&at, "this is a xacro file, not yet a URDF".into(), "a xacro tag", help);
+        found.error(
+            &at,
+            "this is a xacro file, not yet a URDF".into(),
+            "a xacro tag",
+            EXPAND_XACRO,
+        );
     } else if root.tag_name().name() != "robot" {
         let name = root.tag_name().name();
         let help = match name {

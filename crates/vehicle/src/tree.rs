@@ -54,7 +54,7 @@ pub(crate) fn tree(links: &[Link], joints: &[AssemblyJoint], found: &mut Finding
         .iter()
         .enumerate()
         .map(|(joint, &(parent, child))| Some(Edge { joint, parent: parent?, child: child? }));
-    Some(Tree { root, order: parents_first(root, edges.collect::<Option<_>>()?) })
+    Some(Tree { root, order: parents_first(links.len(), root, edges.collect::<Option<_>>()?) })
 }
 
 /// Places by name; complains of names that are there twice.
@@ -208,12 +208,13 @@ fn complain_of_roots(links: &[Link], mut roots: Vec<usize>, found: &mut Findings
 }
 
 /// Keeps the order of the file, but no joint comes before the one that carries its parent.
-fn parents_first(root: usize, mut waiting: Vec<Edge>) -> Vec<Edge> {
+fn parents_first(links: usize, root: usize, mut waiting: Vec<Edge>) -> Vec<Edge> {
     let mut order: Vec<Edge> = Vec::with_capacity(waiting.len());
-    let mut placed = vec![root];
-    while let Some(next) = waiting.iter().position(|e| placed.contains(&e.parent)) {
+    let mut placed = vec![false; links];
+    placed[root] = true;
+    while let Some(next) = waiting.iter().position(|e| placed[e.parent]) {
         let edge = waiting.remove(next);
-        placed.push(edge.child);
+        placed[edge.child] = true;
         order.push(edge);
     }
     order

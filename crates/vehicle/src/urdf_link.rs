@@ -63,7 +63,7 @@ impl Reading<'_> {
         Some((link, outlines.into_iter().map(outline).collect()))
     }
 
-    /// Mass properties. After a complaint, neutral values stand in, so that the rest is still checked.
+    /// Mass properties. After a complaint, neutral values stand in: the rest is still checked.
     fn matter(&mut self, node: Node<'_, '_>) -> Matter {
         let element = self.open(node, &INERTIAL);
         let origin = element.only("origin", self);

@@ -291,7 +291,11 @@ fn a_xacro_file_is_refused_with_what_to_do() {
     let complaints = told(text);
     let [complaint] = &complaints[..] else { panic!("{complaints:#?}") };
     assert_eq!((line(complaint), under_the_caret(complaint)), (2, "xacro:property"));
-    assert!(complaint.help.as_deref().is_some_and(|help| help.contains("expand it first")));
+    let says_what_to_do =
+        |c: &Complaint| c.help.as_deref().is_some_and(|h| h.contains("expand it"));
+    assert!(says_what_to_do(complaint));
+    let undeclared = text.replace(" xmlns:xacro=\"http://www.ros.org/wiki/xacro\"", "");
+    assert!(says_what_to_do(&told(&undeclared)[0]));
 }
 
 #[test]
