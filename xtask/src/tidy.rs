@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 /// A rule: its name, and what it finds in the repository at a path.
 type Rule = (&'static str, fn(&Path) -> Vec<String>);
 
-const RULES: [Rule; 14] = [
+const RULES: [Rule; 15] = [
     ("the map is at most two pages and its paths exist", architecture::map),
     ("every crate has its paragraph in the map", architecture::crates_described),
     ("every external dependency has its reason in the map", architecture::dependency_reasons),
@@ -27,6 +27,7 @@ const RULES: [Rule; 14] = [
     ("every algorithm has its theory page, with all its heads", book::theory_pages),
     ("the tests that the book names exist", book::named_tests),
     ("the summary lists every page, and links between pages lead somewhere", book::links),
+    ("paths that the book names exist", book::paths),
     ("what the book quotes stands in the file", quotations::stand_in_their_files),
     ("the table of printed reactions is that of the data", printed_reactions::table),
 ];

@@ -34,6 +34,10 @@ pub(super) fn theory_pages(root: &Path) -> Vec<String> {
         if heads != HEADS {
             findings.push(format!("{page}: heads are {heads:?}, expected {HEADS:?}"));
         }
+        let checks = text.split("\n## ").find_map(|part| part.strip_prefix("Checks\n"));
+        if checks.is_none_or(|part| test_names(part).next().is_none()) {
+            findings.push(format!("{page}: no test under Checks"));
+        }
     }
     findings
 }
@@ -89,6 +93,27 @@ pub(super) fn links(root: &Path) -> Vec<String> {
     findings
 }
 
+/// Paths of the repository that the book and the project's own pages name exist.
+pub(super) fn paths(root: &Path) -> Vec<String> {
+    let mut pages = files_below(root, SOURCE, ".md");
+    pages.extend(["README.md", "CONTRIBUTING.md", "validation/README.md"].map(str::to_owned));
+    let mut findings = Vec::new();
+    for page in pages {
+        let text = text_of(root, &page);
+        let named = in_backticks(&text).filter(|word| is_path(word));
+        let missing = named.filter(|path| !root.join(path).exists());
+        findings.extend(missing.map(|path| format!("{page}: `{path}` does not exist")));
+    }
+    findings
+}
+
+/// Whether a word starts with one of the repository's folders, and stands for one path.
+fn is_path(word: &str) -> bool {
+    let first = word.split('/').next().unwrap_or_default();
+    let ours = ["book", "crates", "missions", "validation", "vehicles", "xtask"].contains(&first);
+    ours && word.contains('/') && !word.contains(['*', ' ', '<'])
+}
+
 /// Targets of the Markdown links of a page, fences and outside addresses left out.
 fn targets(text: &str) -> impl Iterator<Item = &str> {
     let outside_fences = text.split("```").step_by(2);
@@ -121,6 +146,12 @@ mod tests {
     fn sentences_are_names_of_tests_and_monograms_are_not() {
         let text = "`power_balances_on_trees`, `mass_matrix`, `cargo run_a_b_c_d_e`, `J_V_NE_N`";
         assert_eq!(test_names(text).collect::<Vec<_>>(), ["power_balances_on_trees"]);
+    }
+
+    #[test]
+    fn a_path_starts_with_a_folder_of_the_repository() {
+        assert!(is_path("vehicles/x.toml") && is_path("crates/"));
+        assert!(!is_path("crates/*/tests") && !is_path("out/x") && !is_path("vehicles"));
     }
 
     #[test]
