@@ -78,12 +78,24 @@ fn syntax_complaints(source: &Arc<Source>, errors: &[toml::de::Error]) -> Vec<Co
         }
         seen.push(line);
         let complaint = Complaint::error(source, format!("not TOML: {}", error.message()));
-        complaints.push(match span {
-            Some(span) => complaint.at(span, "here"),
-            None => complaint,
+        let Some(span) = span else {
+            complaints.push(complaint);
+            continue;
+        };
+        let bare_unit = source.text.get(span.clone()).is_some_and(begins_with_number);
+        let complaint = complaint.at(span, "here");
+        complaints.push(if bare_unit {
+            complaint.with_help("write the number alone: its key says the unit")
+        } else {
+            complaint
         });
     }
     complaints
+}
+
+/// `3 kg` is a number to its author.
+fn begins_with_number(value: &str) -> bool {
+    value.trim_start_matches(['-', '+', '.']).starts_with(|c: char| c.is_ascii_digit())
 }
 
 fn table_of(source: &Arc<Source>, table: &DeTable<'_>, complaints: &mut Vec<Complaint>) -> Table {

@@ -180,6 +180,7 @@ fn a_number_out_of_the_range_of_its_type_is_a_complaint() {
 fn text_that_is_not_toml_is_shown_where_it_breaks() {
     let complaints = complaints("name = 'a'\nmass_kg = 3 kg\n");
     assert!(complaints.contains("craft.toml:2:11"), "{complaints}");
+    assert!(complaints.contains("write the number alone"), "{complaints}");
 }
 
 #[test]

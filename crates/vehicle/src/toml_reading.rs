@@ -88,3 +88,28 @@ impl<'d> Reading<'d> {
         Mat3::identity()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quaternion_and_angles_turn_the_same_way() {
+        let document = Document::parse("empty.toml", "").unwrap();
+        let mut reading = Reading::new(&document);
+        // Half a right angle about each axis in turn: w = cos 22.5 deg, the rest sin 22.5 deg.
+        let (w, part) = (0.923_879_532_511_286_8, 0.382_683_432_365_089_8);
+        for axis in 0..3 {
+            let (mut rpy, mut xyz) = ([0.0; 3], [0.0; 3]);
+            (rpy[axis], xyz[axis]) = (45.0, part);
+            let [x, y, z] = xyz;
+            let quaternion = OrientationFile::Quaternion(QuaternionFile { w, x, y, z });
+            let by_quaternion = reading.pose(&[], [0.0; 3], Some(&quaternion));
+            let by_angles = reading.pose(&[], [0.0; 3], Some(&OrientationFile::RpyDeg(rpy)));
+            let off = (by_quaternion.rotation - by_angles.rotation).rows.map(Vec3::norm);
+            let off = off.into_iter().fold(0.0, f64::max);
+            assert!(off < 4.0 * f64::EPSILON, "measured 1.6e-16: {off:e}");
+        }
+        assert!(reading.found.into_complaints().is_empty());
+    }
+}

@@ -134,6 +134,13 @@ fn the_planar_vehicle_is_singular_at_its_dynamic_singularity() {
 }
 
 #[test]
+fn a_file_is_found_beside_the_file_that_names_it() {
+    let tests = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let vehicle = find_vehicle("data/small.toml", Some(&tests)).unwrap();
+    assert_eq!(vehicle.name, "small");
+}
+
+#[test]
 fn a_name_that_is_not_in_the_catalogue_finds_the_nearest() {
     let Err(NoVehicle::NotFound { help, .. }) = find_vehicle("atlas-clas", None) else {
         panic!("found")
