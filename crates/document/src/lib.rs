@@ -3,6 +3,25 @@
 //! A format is a plain `serde` struct that also derives `schemars::JsonSchema`. The schema is walked
 //! side by side with the file, so that everything wrong with its shape is said at once; checks of
 //! meaning come later and find the place of a value by its path.
+//!
+//! ```
+//! use wrasse_document::{Document, at, render};
+//!
+//! #[derive(serde::Deserialize, schemars::JsonSchema)]
+//! #[serde(deny_unknown_fields)]
+//! struct Payload {
+//!     mass_kg: f64,
+//! }
+//!
+//! let unknown = Document::parse("payload.toml", "mass = 500").unwrap();
+//! let complaints = unknown.read::<Payload>().err().unwrap();
+//! assert!(render(&complaints, false).contains("write `mass_kg`"));
+//!
+//! let negative = Document::parse("payload.toml", "mass_kg = -500").unwrap();
+//! assert!(negative.read::<Payload>().unwrap().mass_kg < 0.0);
+//! let complaint = negative.error(at!["mass_kg"], "mass must be positive", "this mass");
+//! assert_eq!(complaint.span, Some(10..14));
+//! ```
 
 mod complaint;
 mod document;

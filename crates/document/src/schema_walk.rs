@@ -286,6 +286,12 @@ fn fits(schema: &Schema, value: &Value) -> bool {
 
 /// What a schema asks for, in words.
 fn wanted(schema: &Schema) -> String {
+    if let Some(words) = words(schema) {
+        return list_of(words.iter().map(|w| format!("\"{w}\"")), "or");
+    }
+    if let Some(key) = only_key(schema) {
+        return format!("{{ {key} = … }}");
+    }
     let word = |t: &Schema| match t.as_str() {
         Some("string") => "a string",
         Some("integer") => "an integer",

@@ -155,7 +155,11 @@ fn a_choice_of_shapes_names_them() {
         "name = 'a'\nturn = { quaternion = { w = 1, x = 0 }, rpy_deg = [0, 0, 0] }\n",
         &["`turn` must have one key"],
     );
-    assert_complains("name = 'a'\nturn = 3\n", &["`turn` must be a table, found an integer"]);
+    assert_complains(
+        "name = 'a'\nturn = 3\n",
+        &["must be { rpy_deg = … } or { quaternion = … }, found an integer"],
+    );
+    assert_complains("name = 'a'\nlaw = 3\n", &["\"terrestrial\" or \"free-floating\", found"]);
     assert_complains(
         "name = 'a'\nsolver = { step_s = 3 }\n",
         &["`solver` has no `kind`", "\"fixed-step\" or \"adaptive\""],
