@@ -5,14 +5,15 @@ use crate::computed_torque::computed_torque;
 use crate::door::{Axes, Command, Sensed};
 use crate::feedforward::feedforward_torque;
 use crate::law::{Feedforward, Measurement, Tuning};
-use crate::phase::{Held, JointTiming, PHASES, Path, Phase};
+use crate::phase::{Held, JointTarget, JointTiming, PHASES, Path, Phase};
 use crate::resolved_motion::{
     Assignment, Belief, Redundancy, Resolved, ResolvedMotion, WantedMotion, answered_motion,
     resolved_motion, task_jacobian,
 };
+use crate::tool_pose::{Unreachable, joints_for_tool};
 use crate::trajectory::{BadNumbers, JointMove, Profile, Quintic, ToolMotion};
 use wrasse_dynamics::{Frame, Robot, State, kinematics, mass_matrix, momentum};
-use wrasse_hardware::{SetPoint, SetPointMotion};
+use wrasse_hardware::{JointLimits, SetPoint, SetPointMotion};
 use wrasse_spatial::{
     Dual, Pose, Quat, Scalar, SpatialMomentum, SpatialVelocity, Sym3, Vec3, turned_by,
 };
@@ -30,17 +31,33 @@ pub struct Setup<T, const J: usize> {
     pub measurement: Measurement,
     /// Numbers of the laws.
     pub tuning: Tuning<T>,
+    /// Limits of the joints.
+    pub limits: [JointLimits<T>; J],
     /// Attitude that the attitude control keeps.
     pub quat_ND: Quat<T>,
 }
 
-/// A phase that cannot begin because its numbers describe no motion.
+/// A phase that cannot begin.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BadPhase {
+pub struct BadPhase<T> {
     /// Number of the phase.
     pub phase: usize,
-    /// What is wrong with it.
-    pub numbers: BadNumbers,
+    /// Why.
+    pub reason: NoWay<T>,
+}
+
+/// Why there is no way to go.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum NoWay<T> {
+    /// Its numbers describe no motion.
+    Numbers(BadNumbers),
+    /// No joint positions bring the tool to its pose.
+    Unreachable(Unreachable<T>),
+}
+impl<T> From<BadNumbers> for NoWay<T> {
+    fn from(numbers: BadNumbers) -> Self {
+        Self::Numbers(numbers)
+    }
 }
 
 /// What flies: one call per control period.
@@ -114,7 +131,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     ///
     /// # Errors
     /// If a phase begins whose numbers describe no motion.
-    pub fn step(&mut self, sensed: &Sensed<T, J>) -> Result<Command<T, J>, BadPhase> {
+    pub fn step(&mut self, sensed: &Sensed<T, J>) -> Result<Command<T, J>, BadPhase<T>> {
         self.look(&sensed.state);
         let mut grip = None;
         if self.elapsed >= self.length {
@@ -167,7 +184,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     }
 
     /// Begin the next phase; what it tells the grip.
-    fn begin_next(&mut self) -> Result<Option<crate::Grip>, BadPhase> {
+    fn begin_next(&mut self) -> Result<Option<crate::Grip>, BadPhase<T>> {
         let next = if self.length == 0 && self.elapsed == 0 { 0 } else { self.phase + 1 };
         self.phase = next;
         self.elapsed = 0;
@@ -179,9 +196,8 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         let path = match phase {
             Phase::MoveTool { target, axes, timing } => {
                 let from = self.believed_tool(axes);
-                timing
-                    .line(from, target.from(&from))
-                    .map(|line| (Path::Line(line, axes), line.duration()))
+                let line = timing.line(from, target.from(&from)).map_err(NoWay::from);
+                line.map(|line| (Path::Line(line, axes), line.duration()))
             }
             Phase::MoveJoints { to, timing } => {
                 self.joint_move(to, &timing).map(|path| (Path::Joints(path), path.duration()))
@@ -192,7 +208,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
                 Ok((Path::Still(Held::Joints), self.setup.tuning.period))
             }
         };
-        let (path, duration) = path.map_err(|numbers| BadPhase { phase: next, numbers })?;
+        let (path, duration) = path.map_err(|reason| BadPhase { phase: next, reason })?;
         self.path = path;
         self.length = periods(duration, self.setup.tuning.period);
         Ok(grip)
@@ -200,18 +216,26 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
 
     fn joint_move(
         &self,
-        to: [T; J],
+        to: JointTarget<T, J>,
         timing: &JointTiming<T, J>,
-    ) -> Result<JointMove<T, J>, BadNumbers> {
-        match timing {
+    ) -> Result<JointMove<T, J>, NoWay<T>> {
+        let q = self.belief.q;
+        let to = match to {
+            JointTarget::Positions(to) => core::array::from_fn(|j| to[j].unwrap_or(q[j])),
+            JointTarget::Tool(X, axes) => {
+                let (tool, law) = (&self.setup.assignment.tool, self.setup.assignment.law);
+                let state = State { X_NB: self.belief.X_NB, q, ..State::default() };
+                joints_for_tool(&self.robot, tool, &state, &X, axes, law, &self.setup.limits)
+                    .map_err(NoWay::Unreachable)?
+            }
+        };
+        Ok(match timing {
             JointTiming::Duration(duration) => {
                 let profile = Profile::Quintic(Quintic::new(T::one(), *duration)?);
-                JointMove::new(self.belief.q, to, profile)
+                JointMove::new(q, to, profile)?
             }
-            JointTiming::Limits { shape, limits } => {
-                JointMove::within(self.belief.q, to, *shape, limits)
-            }
-        }
+            JointTiming::Limits { shape, limits } => JointMove::within(q, to, *shape, limits)?,
+        })
     }
 
     /// Where the vehicle is believed to be one period on, from its motion now.
@@ -369,9 +393,11 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         &self.setup.assignment.tool
     }
 
-    /// Pose of the tool as the law believes it to be, in the axes of its reference.
-    pub fn believed_tool_pose(&self) -> Pose<T> {
-        self.believed_tool(self.axes)
+    /// How far the law believes the tool to be from its reference: distance (m) and angle (rad).
+    pub fn believed_tool_error(&self) -> (T, T) {
+        let (X, wanted) = (self.believed_tool(self.axes), self.reference.X_NE);
+        let turned = Quat::from_matrix(&(wanted.rotation * X.rotation.transpose())).log();
+        ((wanted.translation - X.translation).norm(), turned.norm())
     }
 
     /// The law's Jacobian now: columns are the tool's twist per joint rate.

@@ -57,6 +57,4 @@ pub struct Tuning<T> {
     pub attitude_bandwidth: T,
     /// Damping ratio of the attitude loop (–).
     pub attitude_damping: T,
-    /// Singular value of the task Jacobian below which its inverse is damped (m and rad).
-    pub damped_below: T,
 }

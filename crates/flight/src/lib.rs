@@ -13,15 +13,17 @@ mod feedforward;
 mod law;
 mod phase;
 mod resolved_motion;
+mod tool_pose;
 
 pub use attitude_control::attitude_torque;
 pub use computed_torque::computed_torque;
-pub use computer::{BadPhase, FlightComputer, Setup};
+pub use computer::{BadPhase, FlightComputer, NoWay, Setup};
 pub use door::{Axes, Command, Grip, Sensed};
 pub use feedforward::feedforward_torque;
 pub use law::{ArmLaw, Feedforward, Measurement, Task, Tuning};
-pub use phase::{Held, JointTiming, PHASES, Phase, Target, Timing};
+pub use phase::{Held, JointTarget, JointTiming, PHASES, Phase, Target, Timing};
 pub use resolved_motion::{
     Assignment, Belief, Redundancy, Resolved, ResolvedMotion, WantedMotion, answered_motion,
     joint_rates, resolved_motion, task_jacobian,
 };
+pub use tool_pose::{Unreachable, joints_for_tool};

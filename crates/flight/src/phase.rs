@@ -23,8 +23,8 @@ pub enum Phase<T, const J: usize> {
     },
     /// All joints go to a posture, starting and ending together.
     MoveJoints {
-        /// Where to (rad or m).
-        to: [T; J],
+        /// Where to.
+        to: JointTarget<T, J>,
         /// How fast; limits are those of each joint.
         timing: JointTiming<T, J>,
     },
@@ -62,6 +62,15 @@ pub enum Target<T> {
     },
     /// To a pose in the phase's axes.
     To(Pose<T>),
+}
+
+/// Where the joints should go.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum JointTarget<T, const J: usize> {
+    /// To positions (rad or m); joints without one stay.
+    Positions([Option<T>; J]),
+    /// To the positions that bring the tool to a pose in these axes.
+    Tool(Pose<T>, Axes),
 }
 
 /// How fast a tool moves.

@@ -1,9 +1,27 @@
 //! A mission file puts a flight computer into a world, plans, runs and judges.
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
+mod arm_shape;
+mod fly;
+mod format;
+mod mission;
+mod observe;
 mod outcome;
+mod picture;
+mod plan;
+mod quantity;
+mod read_mission;
+mod read_payload;
+mod read_phase;
+mod read_setup;
+mod requirement;
+mod run;
+mod telemetry;
 
+pub use mission::Mission;
 pub use outcome::{
     CaseOutcome, Channel, End, Event, Ledger, Metric, Outcome, PlanLine, ProvenanceRow, Snapshot,
     SnapshotBox, Telemetry, VehicleCard, Verdict,
 };
+pub use read_mission::{mission_schema, read_mission};
+pub use run::{Progress, RunOptions, run};

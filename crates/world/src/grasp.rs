@@ -60,17 +60,19 @@ impl<const J: usize> World<J> {
         Ok(())
     }
 
-    /// Let go of the payload in `frame` that was grasped last; `None` if there is none. It goes on
-    /// as it moves; its number among the free bodies is returned.
-    pub fn release(&mut self, frame: &Frame<f64>) -> Option<usize> {
-        let held = self.held.iter().rposition(|(f, _)| f == frame)?;
+    /// Let go of a payload, by its number in [`held`](Self::held). It goes on as it moves; its number
+    /// among the free bodies is returned.
+    ///
+    /// # Panics
+    /// If nothing of this number is held.
+    pub fn release(&mut self, number: usize) -> usize {
         let before = self.account();
-        let (_, payload) = self.held.remove(held);
+        let (frame, payload) = self.held.remove(number);
         let state = self.state();
         let k = kinematics(&self.robot, &state);
         let V_NF_F = k.V_NB_B[frame.body];
         let V_NF_F = frame.X_BF.velocity_to_child(&V_NF_F);
-        let body = FreeBody::new(payload, &k.pose(frame), &V_NF_F);
+        let body = FreeBody::new(payload, &k.pose(&frame), &V_NF_F);
         let m = self.mass - payload.M_F_F.mass;
         let s = &mut self.system;
         let p_cm = (s.p_NScm_N * self.mass - body.p_NTcm_N * payload.M_F_F.mass) * (1.0 / m);
@@ -83,7 +85,7 @@ impl<const J: usize> World<J> {
         self.free.push(body);
         self.rebuild(m);
         self.book_change(&before);
-        Some(self.free.len() - 1)
+        self.free.len() - 1
     }
 
     /// The robot from what is in its grips.

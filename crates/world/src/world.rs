@@ -222,9 +222,14 @@ impl<const J: usize> World<J> {
         let state = self.state();
         self.dynamics_at(&kinematics(&self.robot, &state), t, &self.outside_wrench(t))
     }
-    /// Torque that turns the base now (N·m, base axes): the actuator's, or what holds it.
-    pub fn attitude_torque_B(&self) -> Vec3<f64> {
-        self.actuator_torque_B + self.dynamics().force.base.torque
+    /// Torque of the attitude actuator on the base now (N·m, base axes), within its limits. What
+    /// holds an attitude exactly is the base's entry of [`dynamics`](Self::dynamics).
+    pub fn actuator_torque_B(&self) -> Vec3<f64> {
+        self.actuator_torque_B
+    }
+    /// What is in the grips: the frame that holds it, and its matter seen from there.
+    pub fn held(&self) -> &[(Frame<f64>, Payload<f64>)] {
+        &self.held
     }
     /// Momentum that the attitude actuator stores (N·m·s, base axes), zero at the start.
     pub fn stored_momentum_B(&self) -> Vec3<f64> {

@@ -1,0 +1,509 @@
+//! The mission file, as it is written. A number's unit is in its key.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// A mission: a vehicle, what it holds, what it shall do, under which laws, and what is required.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MissionFile {
+    /// Name of the mission: letters, digits and dashes; the results go to out/NAME.
+    pub(crate) name: String,
+    /// What it is for, in a sentence or two.
+    #[serde(default)]
+    pub(crate) summary: String,
+    /// A vehicle of the catalogue (`wrasse vehicles` lists them), or a file seen from this one.
+    pub(crate) vehicle: String,
+    /// Seed of everything random. Nothing in a mission of today is random.
+    #[serde(default)]
+    pub(crate) seed: u64,
+    /// Where everything is at the start.
+    #[serde(default)]
+    pub(crate) initial: InitialFile,
+    /// Rigid bodies that can be held, by name.
+    #[serde(default)]
+    pub(crate) payload: BTreeMap<String, PayloadFile>,
+    /// The simulated truth.
+    #[serde(default)]
+    pub(crate) world: WorldFile,
+    /// The laws that fly.
+    #[serde(default)]
+    pub(crate) control: ControlFile,
+    /// What happens, one after the other.
+    #[serde(default)]
+    pub(crate) phase: Vec<PhaseFile>,
+    /// What must hold: `"tool.position_error.max <= 0.3 mm"`, with `during PHASE` for one phase only.
+    #[serde(default)]
+    pub(crate) requirements: Vec<String>,
+    /// How much is recorded.
+    #[serde(default)]
+    pub(crate) output: OutputFile,
+    /// Variants to compare: every combination of one row from each axis is run.
+    #[serde(default)]
+    pub(crate) compare: Vec<AxisFile>,
+}
+
+/// One axis of a comparison.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct AxisFile {
+    /// What varies: the heading of its column.
+    pub(crate) axis: String,
+    /// The variants.
+    pub(crate) row: Vec<RowFile>,
+}
+
+/// One variant.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RowFile {
+    /// Its name in tables.
+    pub(crate) name: String,
+    /// A part of a mission that replaces what stands above: `set.control.arm_law = "terrestrial"`.
+    #[serde(default)]
+    #[allow(dead_code, reason = "laid over the document, which is then read again")]
+    pub(crate) set: BTreeMap<String, serde_json::Value>,
+}
+
+/// An attitude as a unit quaternion, from the axes of the thing to those it is measured in.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct AttitudeFile {
+    /// Scalar part.
+    pub(crate) w: f64,
+    /// First component of the vector part.
+    pub(crate) x: f64,
+    /// Second component of the vector part.
+    pub(crate) y: f64,
+    /// Third component of the vector part.
+    pub(crate) z: f64,
+}
+
+/// Where everything is at the start.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct InitialFile {
+    /// A posture that the vehicle file names.
+    pub(crate) posture: Option<String>,
+    /// Positions of turning joints by name; they replace the posture's.
+    pub(crate) joints_deg: BTreeMap<String, f64>,
+    /// Positions of sliding joints by name.
+    pub(crate) joints_m: BTreeMap<String, f64>,
+    /// Rates of turning joints by name.
+    pub(crate) joint_rates_deg_s: BTreeMap<String, f64>,
+    /// Rates of sliding joints by name.
+    pub(crate) joint_rates_m_s: BTreeMap<String, f64>,
+    /// Origin of the base, inertial axes.
+    pub(crate) position_m: [f64; 3],
+    /// Attitude of the base.
+    pub(crate) attitude: Option<AttitudeFile>,
+    /// Rate of the base, base axes.
+    pub(crate) angular_velocity_deg_s: [f64; 3],
+    /// Velocity of the base's origin, base axes.
+    pub(crate) velocity_m_s: [f64; 3],
+}
+
+/// A rigid body that can be held. Its frame is the grip: the frame that coincides with the tool's
+/// while it is held from the start.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PayloadFile {
+    /// Mass.
+    pub(crate) mass_kg: f64,
+    /// Centre of mass from the grip, payload axes.
+    #[serde(default)]
+    pub(crate) centre_of_mass_m: [f64; 3],
+    /// Edges of a uniform box, from which the inertia follows.
+    #[serde(default)]
+    pub(crate) uniform_box_m: Option<[f64; 3]>,
+    /// Inertia about the centre of mass: xx, yy, zz.
+    #[serde(default)]
+    pub(crate) inertia_kgm2: Option<[f64; 3]>,
+    /// Products of inertia: xy, xz, yz (the off-diagonal elements of the matrix).
+    #[serde(default)]
+    pub(crate) products_kgm2: [f64; 3],
+    /// Held by the tool of this name from the start.
+    #[serde(default)]
+    pub(crate) held_by: Option<String>,
+    /// Floating freely at the start.
+    #[serde(default)]
+    pub(crate) free: Option<FreeFile>,
+}
+
+/// Where a free payload is at the start.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct FreeFile {
+    /// Name of the frame that the pose is seen from; inertial space if there is none.
+    pub(crate) seen_from: Option<String>,
+    /// Origin of the grip.
+    pub(crate) position_m: [f64; 3],
+    /// Attitude of the grip.
+    pub(crate) attitude: Option<AttitudeFile>,
+    /// Velocity of the grip, inertial axes.
+    pub(crate) velocity_m_s: [f64; 3],
+    /// Angular velocity, inertial axes.
+    pub(crate) angular_velocity_deg_s: [f64; 3],
+}
+
+/// What becomes of the base's attitude.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum BaseFile {
+    /// Held exactly; the torque that this takes is recorded.
+    Held,
+    /// By the attitude law through the vehicle's actuator.
+    Controlled,
+    /// Nothing acts on it but the arm.
+    Free,
+}
+
+/// How joints move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum JointsFile {
+    /// They follow their set-points exactly, whatever it takes.
+    Prescribed,
+    /// Driven by the torque of the arm law, within their limits.
+    Torque,
+}
+
+/// The simulated truth.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct WorldFile {
+    /// What becomes of the base's attitude.
+    pub(crate) base_attitude: BaseFile,
+    /// How the joints move.
+    pub(crate) joints: JointsFile,
+    /// Joints that are driven by torque while the others are prescribed.
+    pub(crate) torque_joints: Vec<String>,
+    /// Step of the fixed-step integrator; at most the control period is used.
+    pub(crate) step_s: f64,
+    /// Error allowed in each step of the adaptive integrator; it replaces the fixed step.
+    pub(crate) adaptive_tolerance: Option<f64>,
+}
+
+impl Default for WorldFile {
+    fn default() -> Self {
+        Self {
+            base_attitude: BaseFile::Free,
+            joints: JointsFile::Prescribed,
+            torque_joints: vec![],
+            step_s: 0.01,
+            adaptive_tolerance: None,
+        }
+    }
+}
+
+/// What the arm law takes the base for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum ArmLawFile {
+    /// Bolted to the ground.
+    Terrestrial,
+    /// Attitude held, translation free: the paper's law.
+    AttitudeHeld,
+    /// Free to turn and to translate.
+    FreeFloating,
+}
+
+/// What the attitude control is told of the arm's motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum FeedforwardFile {
+    /// The exact torque.
+    Exact,
+    /// Eq. (3) of the paper as printed, with the centre of mass of arm and payload.
+    AsPrinted,
+    /// Eq. (3) of the paper as printed, with the centre of mass of the whole system.
+    AsPrintedSystemCm,
+    /// Nothing.
+    None,
+}
+
+/// What the guidance measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum MeasurementFile {
+    /// Nothing after the start: each law integrates its own model.
+    None,
+    /// Pose and twist of the base, each period.
+    Base,
+}
+
+/// Which part of the tool's motion counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum TaskFile {
+    /// Position and orientation.
+    Pose,
+    /// Position only.
+    Position,
+}
+
+/// A posture that the arm drifts to as far as the task leaves it free.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RedundancyFile {
+    /// A posture that the vehicle file names.
+    pub(crate) posture: String,
+    /// How fast.
+    pub(crate) gain_per_s: f64,
+}
+
+/// The laws that fly.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct ControlFile {
+    /// Control periods per second.
+    pub(crate) rate_hz: f64,
+    /// What the arm law takes the base for.
+    pub(crate) arm_law: ArmLawFile,
+    /// What the attitude control is told of the arm's motion.
+    pub(crate) feedforward: FeedforwardFile,
+    /// What the guidance measures.
+    pub(crate) measurement: MeasurementFile,
+    /// Which part of the tool's motion counts.
+    pub(crate) task: TaskFile,
+    /// The tool that is guided; the vehicle's first if there is none.
+    pub(crate) tool: Option<String>,
+    /// What to do with the freedom that the task leaves; joint rates of least norm if there is none.
+    pub(crate) redundancy: Option<RedundancyFile>,
+    /// How fast the guidance takes back a tool error.
+    pub(crate) tool_gain_per_s: f64,
+    /// Bandwidth of the joint loops; zero for feedforward only.
+    pub(crate) joint_bandwidth_rad_s: f64,
+    /// Damping ratio of the joint loops.
+    pub(crate) joint_damping_ratio: f64,
+    /// Bandwidth of the attitude loop; zero for feedforward only.
+    pub(crate) attitude_bandwidth_rad_s: f64,
+    /// Damping ratio of the attitude loop.
+    pub(crate) attitude_damping_ratio: f64,
+    /// Singular value (m, rad) of the law's Jacobian below which its inverse is damped.
+    pub(crate) damped_below: f64,
+}
+
+impl Default for ControlFile {
+    fn default() -> Self {
+        Self {
+            rate_hz: 100.0,
+            arm_law: ArmLawFile::FreeFloating,
+            feedforward: FeedforwardFile::Exact,
+            measurement: MeasurementFile::Base,
+            task: TaskFile::Pose,
+            tool: None,
+            redundancy: None,
+            tool_gain_per_s: 2.0,
+            joint_bandwidth_rad_s: 10.0,
+            joint_damping_ratio: 1.0,
+            attitude_bandwidth_rad_s: 0.3,
+            attitude_damping_ratio: 1.0,
+            damped_below: 0.02,
+        }
+    }
+}
+
+/// One phase: a name and exactly one thing to do.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PhaseFile {
+    /// Its name.
+    pub(crate) name: String,
+    /// The tool goes on a straight line, turning on the shortest way.
+    pub(crate) move_tool: Option<MoveToolFile>,
+    /// All joints go to a posture, starting and ending together.
+    pub(crate) move_joints: Option<MoveJointsFile>,
+    /// Nothing new is asked for a while.
+    pub(crate) hold: Option<HoldFile>,
+    /// The tool grasps a free payload.
+    pub(crate) grasp: Option<GraspFile>,
+    /// The tool lets go of a payload.
+    pub(crate) release: Option<ReleaseFile>,
+}
+
+/// Axes that a target is fixed in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum AxesFile {
+    /// Inertial space.
+    Inertial,
+    /// The base, wherever it goes.
+    Base,
+}
+
+/// A straight line of the tool.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MoveToolFile {
+    /// Displacement from where the tool is.
+    pub(crate) by_m: Option<[f64; 3]>,
+    /// Turn from how the tool is: rotation vector.
+    pub(crate) turn_by_deg: Option<[f64; 3]>,
+    /// Position to reach.
+    pub(crate) to_position_m: Option<[f64; 3]>,
+    /// Orientation to reach.
+    pub(crate) to_attitude: Option<AttitudeFile>,
+    /// Axes of the target, and of the line.
+    #[serde(default = "inertial")]
+    pub(crate) axes: AxesFile,
+    /// Duration of a quintic from rest to rest.
+    pub(crate) duration_s: Option<f64>,
+    /// Instead of a duration: the shortest motion under limits.
+    pub(crate) limits: Option<ToolLimitsFile>,
+}
+
+fn inertial() -> AxesFile {
+    AxesFile::Inertial
+}
+
+/// Shape of a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum ShapeFile {
+    /// Polynomial of degree five.
+    Quintic,
+    /// Bounded jerk, in seven segments.
+    SCurve,
+}
+
+/// Limits of a tool's motion.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ToolLimitsFile {
+    /// Shape of the motion.
+    pub(crate) shape: ShapeFile,
+    /// Largest speed.
+    pub(crate) speed_m_s: f64,
+    /// Largest acceleration.
+    pub(crate) acceleration_m_s2: f64,
+    /// Largest jerk.
+    pub(crate) jerk_m_s3: f64,
+    /// Largest turning speed.
+    pub(crate) turn_speed_deg_s: f64,
+    /// Largest turning acceleration.
+    pub(crate) turn_acceleration_deg_s2: f64,
+    /// Largest turning jerk.
+    pub(crate) turn_jerk_deg_s3: f64,
+}
+
+/// A move of all joints.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MoveJointsFile {
+    /// A posture that the vehicle file names.
+    pub(crate) to_posture: Option<String>,
+    /// Positions of turning joints by name; they replace the posture's, the others stay.
+    #[serde(default)]
+    pub(crate) to_deg: BTreeMap<String, f64>,
+    /// Positions of sliding joints by name.
+    #[serde(default)]
+    pub(crate) to_m: BTreeMap<String, f64>,
+    /// A pose of the tool, for which the inverse kinematics of the law finds the joints.
+    pub(crate) to_tool: Option<ToolPoseFile>,
+    /// Duration of a quintic from rest to rest.
+    pub(crate) duration_s: Option<f64>,
+    /// Instead of a duration: the shortest motion under limits.
+    pub(crate) limits: Option<JointLimitsFile>,
+}
+
+/// A pose of the tool.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ToolPoseFile {
+    /// Position.
+    pub(crate) position_m: [f64; 3],
+    /// Orientation.
+    pub(crate) attitude: AttitudeFile,
+    /// Axes of the pose.
+    #[serde(default = "inertial")]
+    pub(crate) axes: AxesFile,
+}
+
+/// Limits of the joints' motion: rates are those of the vehicle, the rest is given here.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct JointLimitsFile {
+    /// Shape of the motion.
+    pub(crate) shape: ShapeFile,
+    /// Share of the vehicle's joint rates that is used (–).
+    pub(crate) rate_share: f64,
+    /// Largest acceleration of turning joints.
+    pub(crate) acceleration_deg_s2: f64,
+    /// Largest jerk of turning joints.
+    pub(crate) jerk_deg_s3: f64,
+    /// Largest acceleration of sliding joints.
+    #[serde(default = "one")]
+    pub(crate) acceleration_m_s2: f64,
+    /// Largest jerk of sliding joints.
+    #[serde(default = "one")]
+    pub(crate) jerk_m_s3: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+/// What a hold keeps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum KeepFile {
+    /// The joints stand still.
+    Joints,
+    /// The tool stays on its reference.
+    Tool,
+    /// Nothing: no actuator acts, the joints move on as they do.
+    Nothing,
+}
+
+/// A hold.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct HoldFile {
+    /// For how long.
+    pub(crate) duration_s: f64,
+    /// What stays.
+    #[serde(default = "joints")]
+    pub(crate) keep: KeepFile,
+}
+
+fn joints() -> KeepFile {
+    KeepFile::Joints
+}
+
+/// A grasp.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct GraspFile {
+    /// Name of the payload.
+    pub(crate) payload: String,
+    /// Largest relative speed of tool and payload; above it the grasp is refused.
+    pub(crate) largest_speed_m_s: f64,
+    /// Largest relative turning speed.
+    pub(crate) largest_turn_speed_deg_s: f64,
+}
+
+/// A release.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ReleaseFile {
+    /// Name of the payload.
+    pub(crate) payload: String,
+}
+
+/// How much is recorded.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct OutputFile {
+    /// Samples per second in the telemetry; metrics always see every control period.
+    pub(crate) rate_hz: f64,
+    /// Instants in the drawing of the motion.
+    pub(crate) snapshots: u32,
+}
+
+impl Default for OutputFile {
+    fn default() -> Self {
+        Self { rate_hz: 20.0, snapshots: 6 }
+    }
+}

@@ -1,0 +1,130 @@
+//! A checked mission: ready to be planned and flown.
+
+use crate::quantity::Quantity;
+use crate::requirement::Requirement;
+use std::sync::Arc;
+use wrasse_dynamics::{Frame, Payload, Robot, State};
+use wrasse_flight::{Phase, Setup};
+use wrasse_spatial::{Pose, SpatialVelocity};
+use wrasse_vehicle::{JOINTS, Vehicle};
+use wrasse_world::{BaseAttitude, FreeBody, Stepper};
+
+/// A mission file, checked.
+#[derive(Debug, Clone)]
+pub struct Mission {
+    /// Its name: results go to `out/NAME`.
+    pub name: String,
+    /// What it is for.
+    pub summary: String,
+    /// The file, as given.
+    pub file: String,
+    /// Its text.
+    pub text: String,
+    /// Seed of everything random.
+    pub seed: u64,
+    pub(crate) cases: Vec<Case>,
+}
+
+impl Mission {
+    /// Number of cases: one, or one for each combination that is compared.
+    pub fn case_count(&self) -> usize {
+        self.cases.len()
+    }
+}
+
+/// One thing to run.
+#[derive(Debug, Clone)]
+pub(crate) struct Case {
+    /// (axis, row) of each comparison.
+    pub(crate) labels: Vec<(String, String)>,
+    pub(crate) vehicle: Arc<Vehicle>,
+    pub(crate) vehicle_name: String,
+    pub(crate) start: State<f64, JOINTS>,
+    pub(crate) payloads: Vec<PayloadCase>,
+    pub(crate) base: BaseAttitude,
+    pub(crate) stepper: Stepper,
+    /// Which joints are driven by torque.
+    pub(crate) torque: [bool; JOINTS],
+    pub(crate) setup: Setup<f64, JOINTS>,
+    pub(crate) phases: Vec<PhaseCase>,
+    pub(crate) requirements: Vec<Requirement>,
+    pub(crate) quantities: Vec<Quantity>,
+    /// Samples per second in the telemetry.
+    pub(crate) output_rate: f64,
+    /// Instants in the drawing.
+    pub(crate) snapshots: u32,
+}
+
+/// A payload and where it is at the start.
+#[derive(Debug, Clone)]
+pub(crate) struct PayloadCase {
+    pub(crate) name: String,
+    pub(crate) matter: Payload<f64>,
+    pub(crate) start: PayloadStart,
+    /// Edges for drawings (m), centred on the centre of mass.
+    pub(crate) box_m: Option<[f64; 3]>,
+}
+
+/// Where a payload is at the start.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum PayloadStart {
+    /// Held in this frame.
+    Held(Frame<f64>),
+    /// Floating: pose `X_NT` and twist `V_NT_T`.
+    Free(Pose<f64>, SpatialVelocity<f64>),
+}
+
+/// A phase and what the mission knows of it beyond the flight computer.
+#[derive(Debug, Clone)]
+pub(crate) struct PhaseCase {
+    pub(crate) name: String,
+    pub(crate) phase: Phase<f64, JOINTS>,
+    /// Largest relative turning speed (rad/s) and speed (m/s) of a grasp.
+    pub(crate) grasp_bounds: (f64, f64),
+}
+
+impl Case {
+    /// Control period (s).
+    pub(crate) fn period(&self) -> f64 {
+        self.setup.tuning.period
+    }
+    /// Control periods from one telemetry sample to the next.
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "rounded, at least 1"
+    )]
+    pub(crate) fn periods_per_sample(&self) -> u64 {
+        (1.0 / (self.output_rate * self.period())).round().max(1.0) as u64
+    }
+    /// The robot with what it holds from the start.
+    pub(crate) fn robot_at_start(&self) -> Robot<f64, JOINTS> {
+        self.held_at_start()
+            .iter()
+            .fold(self.vehicle.robot, |robot, (frame, matter)| robot.with_payload(frame, matter))
+    }
+    /// Payloads held from the start.
+    pub(crate) fn held_at_start(&self) -> Vec<(Frame<f64>, Payload<f64>)> {
+        let held = self.payloads.iter().filter_map(|p| match p.start {
+            PayloadStart::Held(frame) => Some((frame, p.matter)),
+            PayloadStart::Free(..) => None,
+        });
+        held.collect()
+    }
+    /// A payload as a free body; where it would be, if it is held.
+    pub(crate) fn free_body(&self, payload: usize) -> FreeBody {
+        let p = &self.payloads[payload];
+        match p.start {
+            PayloadStart::Free(X_NT, V_NT_T) => FreeBody::new(p.matter, &X_NT, &V_NT_T),
+            PayloadStart::Held(_) => {
+                FreeBody::new(p.matter, &Pose::identity(), &SpatialVelocity::zero())
+            }
+        }
+    }
+    pub(crate) fn flight_phases(&self) -> Vec<Phase<f64, JOINTS>> {
+        self.phases.iter().map(|p| p.phase).collect()
+    }
+    pub(crate) fn joint_name(&self, j: usize) -> &str {
+        self.vehicle.joint_names.get(j).map_or("?", String::as_str)
+    }
+}

@@ -1,0 +1,181 @@
+//! What is seen of the truth after each control period.
+
+use crate::arm_shape::{reach_margin, smallest_singular_value};
+use crate::mission::Case;
+use crate::quantity::FIXED_COUNT;
+use wrasse_dynamics::{
+    BodyId, Dynamics, Kinematics, PerBody, State, inverse_dynamics, kinematics, kinetic_energy,
+    mount_reaction,
+};
+use wrasse_flight::{Axes, Command, FlightComputer};
+use wrasse_spatial::{Pose, Quat, SpatialForce, SpatialVelocity, Vec3};
+use wrasse_vehicle::JOINTS;
+use wrasse_world::World;
+
+/// The truth at one instant.
+#[derive(Debug, Clone)]
+pub(crate) struct Observation {
+    pub(crate) state: State<f64, JOINTS>,
+    pub(crate) dynamics: Dynamics<f64, JOINTS>,
+    /// Torque that turned the base (N·m, base axes).
+    pub(crate) torque_B: Vec3<f64>,
+    /// Torque that would have kept the base from feeling the arms (N·m, base axes).
+    pub(crate) reaction_B: Vec3<f64>,
+    /// Momentum that the actuator stores (N·m·s, base axes).
+    pub(crate) stored_B: Vec3<f64>,
+    /// Tool less reference: position (m) and rotation vector (rad), in the reference's axes.
+    pub(crate) tool_error: (Vec3<f64>, Vec3<f64>),
+    /// Tool in inertial axes.
+    pub(crate) X_NE: Pose<f64>,
+    pub(crate) V_NE: SpatialVelocity<f64>,
+    /// Rotation vector of the base since the start (rad) and its translation (m).
+    pub(crate) base_turn: Vec3<f64>,
+    pub(crate) base_shift: Vec3<f64>,
+    /// Values in the order of the quantities.
+    pub(crate) values: Vec<f64>,
+}
+
+/// The line that the tool follows, for errors along and across it.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Track {
+    phase: Option<usize>,
+    start: Vec3<f64>,
+    last: Vec3<f64>,
+    direction: Option<Vec3<f64>>,
+}
+
+impl Track {
+    /// Follow the reference of a command.
+    pub(crate) fn follow(&mut self, command: &Command<f64, JOINTS>, moves_tool: bool) {
+        let at = command.reference.X_NE.translation;
+        if self.phase != Some(command.phase) {
+            if moves_tool || self.phase.is_none() {
+                self.start = if self.phase.is_none() { at } else { self.last };
+                self.direction = None;
+            }
+            self.phase = Some(command.phase);
+        }
+        let way = at - self.start;
+        if moves_tool && way.norm() > 1e-6 {
+            self.direction = Some(way * (1.0 / way.norm()));
+        }
+        self.last = at;
+    }
+    /// Signed error along the line and error across it (m); NaN where there is no line.
+    fn split(&self, error: Vec3<f64>) -> (f64, f64) {
+        self.direction.map_or((f64::NAN, f64::NAN), |direction| {
+            let along = error.dot(direction);
+            (along, (error - direction * along).norm())
+        })
+    }
+}
+
+/// See the truth.
+pub(crate) fn observe(
+    case: &Case,
+    world: &World<JOINTS>,
+    computer: &FlightComputer<f64, JOINTS>,
+    command: &Command<f64, JOINTS>,
+    track: &Track,
+) -> Observation {
+    let state = world.state();
+    let dynamics = world.dynamics();
+    let k = kinematics(world.robot(), &state);
+    let tool = *computer.tool();
+    let X_NE = k.pose(&tool);
+    let seen = match command.axes {
+        Axes::Inertial => X_NE,
+        Axes::Base => state.X_NB.inverse() * X_NE,
+    };
+    let wanted = command.reference.X_NE;
+    let rotation = Quat::from_matrix(&(seen.rotation * wanted.rotation.transpose())).log();
+    let start = &case.start.X_NB;
+    let turned = start.rotation.transpose() * state.X_NB.rotation;
+    let (mounts, reaction_B) = mounts(&k, &dynamics);
+    let mut seen = Observation {
+        dynamics,
+        torque_B: world.actuator_torque_B() + dynamics.force.base.torque,
+        reaction_B,
+        stored_B: world.stored_momentum_B(),
+        tool_error: (seen.translation - wanted.translation, rotation),
+        X_NE,
+        V_NE: k.velocity(&tool),
+        base_turn: Quat::from_matrix(&turned).log(),
+        base_shift: state.X_NB.translation - start.translation,
+        values: Vec::with_capacity(FIXED_COUNT + 4 * world.robot().joint_count()),
+        state,
+    };
+    let shape = (
+        reach_margin(&k, &tool).unwrap_or(f64::NAN),
+        smallest_singular_value(&computer.task_jacobian(), case.setup.assignment.task),
+    );
+    seen.values = values(case, &seen, track, mounts, shape, kinetic_energy(&k));
+    for j in world.robot().joints() {
+        seen.values.push(seen.state.q[j] - case.start.q[j]);
+        seen.values.push(command.set_points[j].position - case.start.q[j]);
+        seen.values.push(seen.state.v[j]);
+        seen.values.push(seen.dynamics.force.joints[j]);
+    }
+    seen
+}
+
+/// Largest force (N) and moment (N·m) at a mount, and the torque about the base's centre of mass by
+/// which the base carries all arms (base axes).
+fn mounts(
+    k: &Kinematics<'_, f64, JOINTS>,
+    dynamics: &Dynamics<f64, JOINTS>,
+) -> ((f64, f64), Vec3<f64>) {
+    let forces = inverse_dynamics(k, &dynamics.nudot, &PerBody::filled(SpatialForce::zero()));
+    let X_NB = &k.X_NB[BodyId::Base];
+    let p_NBcm = X_NB.point(k.robot.inertia(BodyId::Base).centre_of_mass());
+    let (mut largest, mut total) = ((0.0_f64, 0.0_f64), Vec3::zero());
+    for j in k.robot.joints().filter(|&j| k.robot.joint(j).parent == BodyId::Base) {
+        let F = mount_reaction(k, &forces, j);
+        largest = (largest.0.max(F.force.norm()), largest.1.max(F.torque.norm()));
+        total += F.torque + (k.joint_origin(j) - p_NBcm).cross(F.force);
+    }
+    (largest, X_NB.rotation.transpose_mul(total))
+}
+
+/// Values of the quantities of any vehicle, in their order.
+fn values(
+    case: &Case,
+    seen: &Observation,
+    track: &Track,
+    mounts: (f64, f64),
+    shape: (f64, f64),
+    energy: f64,
+) -> Vec<f64> {
+    let (along, across) = track.split(seen.tool_error.0);
+    let use_of = |value: &dyn Fn(usize) -> (f64, Option<f64>)| {
+        let shares = (0..case.vehicle.limits.len()).filter_map(|j| {
+            let (x, limit) = value(j);
+            limit.map(|limit| x.abs() / limit)
+        });
+        shares.fold(f64::NAN, f64::max)
+    };
+    let margins = case.vehicle.limits.iter().enumerate().filter_map(|(j, limits)| {
+        limits.travel.map(|(lower, upper)| (seen.state.q[j] - lower).min(upper - seen.state.q[j]))
+    });
+    vec![
+        seen.tool_error.0.norm(),
+        along,
+        across,
+        seen.tool_error.1.norm(),
+        seen.V_NE.linear.norm(),
+        seen.V_NE.angular.norm(),
+        seen.base_turn.norm(),
+        seen.base_shift.norm(),
+        seen.state.V_NB_B.angular.norm(),
+        use_of(&|j| (seen.state.v[j], case.vehicle.limits[j].rate)),
+        use_of(&|j| (seen.dynamics.force.joints[j], case.vehicle.limits[j].effort)),
+        margins.fold(f64::NAN, f64::min),
+        shape.0,
+        shape.1,
+        mounts.0,
+        mounts.1,
+        seen.torque_B.norm(),
+        seen.stored_B.norm(),
+        energy,
+    ]
+}

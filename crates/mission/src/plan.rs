@@ -1,0 +1,233 @@
+//! Planning: the whole mission is gone through in the laws' own belief before anything moves. A way
+//! that cannot be gone is found here, with where and why it ends.
+
+use crate::arm_shape::{reach_margin, smallest_singular_value};
+use crate::mission::{Case, PayloadStart};
+use crate::outcome::{End, PlanLine};
+use wrasse_dynamics::{Frame, Payload, Robot, kinematics};
+use wrasse_flight::{BadPhase, FlightComputer, Grip, NoWay, Sensed};
+use wrasse_spatial::Quat;
+use wrasse_vehicle::JOINTS;
+use wrasse_world::FreeBody;
+
+/// A tool that its own law believes this far from its reference has left the way (m, rad).
+const OFF_THE_WAY: (f64, f64) = (5e-5, 5e-5);
+/// No mission lasts longer (control periods): a guard against a typing error, ten days at 100 Hz.
+const LONGEST: u64 = 86_400_000;
+
+/// What the planning found.
+#[derive(Debug, Clone)]
+pub(crate) struct Plan {
+    /// A line for each phase that was gone through.
+    pub(crate) lines: Vec<PlanLine>,
+    /// Control periods of the whole mission.
+    pub(crate) periods: u64,
+    /// Where and why the way ends.
+    pub(crate) blocked: Option<End>,
+}
+
+/// What is noted of a phase while it is gone through.
+#[derive(Debug, Clone, Copy)]
+struct PhaseNotes {
+    periods: u64,
+    singular: f64,
+    reach: f64,
+    rate: f64,
+    base_turn: f64,
+}
+
+impl PhaseNotes {
+    const NONE: Self = Self {
+        periods: 0,
+        singular: f64::INFINITY,
+        reach: f64::INFINITY,
+        rate: 0.0,
+        base_turn: 0.0,
+    };
+}
+
+/// The vehicle as the laws believe it to be, and the bodies beside it.
+struct Belief<'a> {
+    case: &'a Case,
+    computer: FlightComputer<f64, JOINTS>,
+    held: Vec<(usize, Frame<f64>, Payload<f64>)>,
+    free: Vec<Option<FreeBody>>,
+}
+
+/// Go through all phases.
+pub(crate) fn plan(case: &Case) -> Plan {
+    let mut belief = Belief::new(case);
+    let mut plan = Plan { lines: vec![], periods: 0, blocked: None };
+    let mut state = case.start;
+    let mut notes = PhaseNotes::NONE;
+    let mut phase = 0;
+    while !belief.computer.done() && plan.periods < LONGEST {
+        let time = case.period() * plan.periods as f64;
+        let command = match belief.computer.step(&Sensed { state }) {
+            Ok(command) => command,
+            Err(bad) => {
+                plan.lines.extend(finished(case, phase, &notes));
+                plan.blocked = Some(cannot_begin(case, &bad, time));
+                return plan;
+            }
+        };
+        if command.phase != phase {
+            plan.lines.extend(finished(case, phase, &notes));
+            (phase, notes) = (command.phase, PhaseNotes::NONE);
+        }
+        if let Some(grip) = command.grip {
+            belief.grip(grip);
+        }
+        plan.periods += 1;
+        belief.float_on();
+        state = belief.computer.believed_state();
+        notes.periods += 1;
+        if let Some(reason) = belief.look(&mut notes) {
+            let time_s = time + case.period();
+            plan.blocked =
+                Some(End::Infeasible { phase: case.phases[phase].name.clone(), time_s, reason });
+            return plan;
+        }
+    }
+    plan.lines.extend(finished(case, phase, &notes));
+    plan
+}
+
+impl<'a> Belief<'a> {
+    fn new(case: &'a Case) -> Self {
+        let phases = case.flight_phases();
+        let held = case.payloads.iter().enumerate().filter_map(|(i, p)| match p.start {
+            PayloadStart::Held(frame) => Some((i, frame, p.matter)),
+            PayloadStart::Free(..) => None,
+        });
+        let free = case.payloads.iter().enumerate().map(|(i, p)| match p.start {
+            PayloadStart::Free(..) => Some(case.free_body(i)),
+            PayloadStart::Held(_) => None,
+        });
+        Self {
+            case,
+            computer: FlightComputer::new(case.setup, &case.robot_at_start(), &phases),
+            held: held.collect(),
+            free: free.collect(),
+        }
+    }
+    fn robot(&self) -> Robot<f64, JOINTS> {
+        let empty = self.case.vehicle.robot;
+        self.held.iter().fold(empty, |robot, (_, frame, matter)| robot.with_payload(frame, matter))
+    }
+    fn float_on(&mut self) {
+        let period = self.case.period();
+        self.free.iter_mut().flatten().for_each(|body| body.step(period));
+    }
+    fn grip(&mut self, grip: Grip) {
+        let tool = *self.computer.tool();
+        match grip {
+            Grip::Grasp(i) => {
+                let Some(body) = self.free[i].take() else { return };
+                let state = self.computer.believed_state();
+                let robot = self.robot();
+                let X_NE = kinematics(&robot, &state).pose(&tool);
+                let X_ET = X_NE.inverse() * body.pose();
+                self.held.push((i, tool, body.matter.seen_from(&X_ET)));
+            }
+            Grip::Release(i) => self.held.retain(|(held, ..)| *held != i),
+        }
+        let robot = self.robot();
+        self.computer.robot_changed(&robot);
+    }
+
+    /// Note how near the arm is to where it cannot go on; why, if it cannot.
+    fn look(&self, notes: &mut PhaseNotes) -> Option<String> {
+        let (case, state) = (self.case, self.computer.believed_state());
+        let k = kinematics(self.computer.robot(), &state);
+        let singular =
+            smallest_singular_value(&self.computer.task_jacobian(), case.setup.assignment.task);
+        let reach = reach_margin(&k, self.computer.tool()).unwrap_or(f64::INFINITY);
+        let R = case.start.X_NB.rotation.transpose() * state.X_NB.rotation;
+        notes.base_turn = Quat::from_matrix(&R).log().norm();
+        notes.reach = notes.reach.min(reach);
+        for j in k.robot.joints() {
+            notes.rate = notes.rate.max(state.v[j].abs());
+            let (name, limits) = (case.joint_name(j), &case.vehicle.limits[j]);
+            if let Some((lower, upper)) = limits.travel
+                && !(lower - 1e-9..=upper + 1e-9).contains(&state.q[j])
+            {
+                let at = state.q[j];
+                return Some(format!(
+                    "joint {name} would leave its travel: {at:.4}, from {lower:.4} to {upper:.4} (rad or m)"
+                ));
+            }
+            if let Some(rate) = limits.rate
+                && state.v[j].abs() > rate * (1.0 + 1e-9)
+            {
+                let v = state.v[j].abs();
+                return Some(format!(
+                    "joint {name} would have to move at {v:.4}, its limit is {rate:.4} (rad/s or m/s); \
+                     {}",
+                    condition(singular, reach, notes.base_turn)
+                ));
+            }
+        }
+        if !self.computer.follows_tool() {
+            return None;
+        }
+        notes.singular = notes.singular.min(singular);
+        let (off, turned) = self.computer.believed_tool_error();
+        (off > OFF_THE_WAY.0 || turned > OFF_THE_WAY.1).then(|| {
+            format!(
+                "the tool falls behind its reference by {:.3} mm and {:.4} deg; {}",
+                off * 1e3,
+                turned.to_degrees(),
+                condition(singular, reach, notes.base_turn)
+            )
+        })
+    }
+}
+
+/// What the arm is like, in words and numbers.
+fn condition(singular: f64, reach: f64, base_turn: f64) -> String {
+    format!(
+        "smallest singular value {singular:.4}, {:.1} mm of reach left, base believed to have turned \
+         {:.2} deg",
+        reach * 1e3,
+        base_turn.to_degrees()
+    )
+}
+
+fn finished(case: &Case, phase: usize, notes: &PhaseNotes) -> Option<PlanLine> {
+    let phase = case.phases.get(phase)?;
+    if notes.periods == 0 {
+        return None;
+    }
+    let mut text = format!(
+        "{:.2} s, joint rates up to {:.4} (rad/s or m/s)",
+        notes.periods as f64 * case.period(),
+        notes.rate
+    );
+    if notes.singular.is_finite() {
+        text = format!("{text}, {}", condition(notes.singular, notes.reach, notes.base_turn));
+    }
+    Some(PlanLine { phase: phase.name.clone(), text })
+}
+
+/// A phase that cannot begin.
+pub(crate) fn cannot_begin(case: &Case, bad: &BadPhase<f64>, time_s: f64) -> End {
+    let reason = match bad.reason {
+        NoWay::Numbers(numbers) => numbers.to_string(),
+        NoWay::Unreachable(u) => {
+            let because = match u.joint {
+                Some(j) => {
+                    format!(", where joint {} stands at the end of its travel", case.joint_name(j))
+                }
+                None => String::new(),
+            };
+            format!(
+                "no joint positions bring the tool to its pose: the nearest are {:.3} mm and {:.4} deg off{because}",
+                u.position_error * 1e3,
+                u.rotation_error.to_degrees()
+            )
+        }
+    };
+    let phase = case.phases.get(bad.phase).map_or(String::new(), |p| p.name.clone());
+    End::Infeasible { phase, time_s, reason }
+}

@@ -1,0 +1,239 @@
+//! The quantities that are watched: their names, units and statistics.
+
+use crate::outcome::Metric;
+
+/// Kind of a quantity: what it is measured in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Length,
+    Angle,
+    Speed,
+    AngularSpeed,
+    Force,
+    Torque,
+    AngularMomentum,
+    Energy,
+    Number,
+}
+
+/// Units that a requirement may be written in, with what they are in SI.
+const UNITS: &[(&str, Kind, f64)] = &[
+    ("m", Kind::Length, 1.0),
+    ("cm", Kind::Length, 1e-2),
+    ("mm", Kind::Length, 1e-3),
+    ("um", Kind::Length, 1e-6),
+    ("rad", Kind::Angle, 1.0),
+    ("mrad", Kind::Angle, 1e-3),
+    ("deg", Kind::Angle, std::f64::consts::PI / 180.0),
+    ("arcmin", Kind::Angle, std::f64::consts::PI / 10_800.0),
+    ("arcsec", Kind::Angle, std::f64::consts::PI / 648_000.0),
+    ("m/s", Kind::Speed, 1.0),
+    ("mm/s", Kind::Speed, 1e-3),
+    ("rad/s", Kind::AngularSpeed, 1.0),
+    ("deg/s", Kind::AngularSpeed, std::f64::consts::PI / 180.0),
+    ("N", Kind::Force, 1.0),
+    ("kN", Kind::Force, 1e3),
+    ("N.m", Kind::Torque, 1.0),
+    ("Nm", Kind::Torque, 1.0),
+    ("mNm", Kind::Torque, 1e-3),
+    ("N.m.s", Kind::AngularMomentum, 1.0),
+    ("Nms", Kind::AngularMomentum, 1.0),
+    ("J", Kind::Energy, 1.0),
+    ("mJ", Kind::Energy, 1e-3),
+    ("-", Kind::Number, 1.0),
+    ("%", Kind::Number, 1e-2),
+];
+
+impl Kind {
+    /// Its unit in SI.
+    pub(crate) fn si(self) -> &'static str {
+        match self {
+            Self::Torque => "N·m",
+            Self::AngularMomentum => "N·m·s",
+            Self::Number => "–",
+            _ => UNITS.iter().find(|u| u.1 == self).map_or("–", |u| u.0),
+        }
+    }
+    /// What a unit of this kind is in SI.
+    pub(crate) fn scale_of(self, unit: &str) -> Option<f64> {
+        let plain = unit.replace('·', ".");
+        UNITS.iter().find(|u| u.0 == plain && u.1 == self).map(|u| u.2)
+    }
+    /// The units it may be written in.
+    pub(crate) fn units(self) -> Vec<&'static str> {
+        UNITS.iter().filter(|u| u.1 == self).map(|u| u.0).collect()
+    }
+}
+
+/// Whether any quantity is measured in this unit.
+pub(crate) fn is_unit(unit: &str) -> bool {
+    UNITS.iter().any(|u| u.0 == unit.replace('·', "."))
+}
+
+/// What is made of the values of a quantity over time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Statistic {
+    /// Largest value, without its sign.
+    Max,
+    /// Smallest value.
+    Min,
+    /// Last value.
+    Final,
+    /// Root of the mean square.
+    Rms,
+}
+
+impl Statistic {
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Max => "max",
+            Self::Min => "min",
+            Self::Final => "final",
+            Self::Rms => "rms",
+        }
+    }
+}
+
+/// A quantity that is watched.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Quantity {
+    pub(crate) name: String,
+    pub(crate) kind: Kind,
+    pub(crate) statistics: &'static [Statistic],
+}
+
+/// The quantities of any vehicle, in the order of [`crate::observe::Observation::values`].
+const FIXED: &[(&str, Kind, &[Statistic])] = {
+    use Statistic::{Final, Max, Min, Rms};
+    &[
+        ("tool.position_error", Kind::Length, &[Max, Final, Rms]),
+        ("tool.along_track_error", Kind::Length, &[Max, Final]),
+        ("tool.lateral_error", Kind::Length, &[Max, Final]),
+        ("tool.attitude_error", Kind::Angle, &[Max, Final, Rms]),
+        ("tool.speed", Kind::Speed, &[Max, Final]),
+        ("tool.turn_speed", Kind::AngularSpeed, &[Max, Final]),
+        ("base.rotation", Kind::Angle, &[Max, Final]),
+        ("base.translation", Kind::Length, &[Max, Final]),
+        ("base.turn_speed", Kind::AngularSpeed, &[Max, Final]),
+        ("joints.rate_use", Kind::Number, &[Max]),
+        ("joints.effort_use", Kind::Number, &[Max]),
+        ("joints.travel_margin", Kind::Angle, &[Min]),
+        ("arm.reach_margin", Kind::Length, &[Min, Final]),
+        ("arm.singularity_distance", Kind::Number, &[Min, Final]),
+        ("mount.force", Kind::Force, &[Max]),
+        ("mount.moment", Kind::Torque, &[Max]),
+        ("attitude.torque", Kind::Torque, &[Max]),
+        ("attitude.momentum", Kind::AngularMomentum, &[Max, Final]),
+        ("energy", Kind::Energy, &[Max, Final]),
+    ]
+};
+
+/// Number of quantities of any vehicle.
+pub(crate) const FIXED_COUNT: usize = FIXED.len();
+
+/// All quantities: those of any vehicle, then four for each joint.
+pub(crate) fn quantities(joints: &[(String, bool)]) -> Vec<Quantity> {
+    use Statistic::{Final, Max};
+    let mut all: Vec<Quantity> = FIXED
+        .iter()
+        .map(|&(name, kind, statistics)| Quantity { name: name.into(), kind, statistics })
+        .collect();
+    for (name, turns) in joints {
+        let pick = |turning, sliding| if *turns { turning } else { sliding };
+        let of = |what: &str, kind, statistics| Quantity {
+            name: format!("joint.{name}.{what}"),
+            kind,
+            statistics,
+        };
+        let position = pick(Kind::Angle, Kind::Length);
+        all.push(of("travel", position, &[Max, Final]));
+        all.push(of("commanded_travel", position, &[Max, Final]));
+        all.push(of("rate", pick(Kind::AngularSpeed, Kind::Speed), &[Max]));
+        all.push(of("effort", pick(Kind::Torque, Kind::Force), &[Max]));
+    }
+    all
+}
+
+/// Running statistics of one quantity. Values that are absent (NaN) do not count.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Running {
+    largest: f64,
+    smallest: f64,
+    last: f64,
+    squares: f64,
+    count: f64,
+}
+
+impl Default for Running {
+    fn default() -> Self {
+        Self { largest: 0.0, smallest: f64::INFINITY, last: f64::NAN, squares: 0.0, count: 0.0 }
+    }
+}
+
+impl Running {
+    pub(crate) fn add(&mut self, x: f64) {
+        if x.is_nan() {
+            return;
+        }
+        self.largest = self.largest.max(x.abs());
+        self.smallest = self.smallest.min(x);
+        self.last = x;
+        self.squares += x * x;
+        self.count += 1.0;
+    }
+    /// The statistic; `None` before the first value.
+    pub(crate) fn get(&self, statistic: Statistic) -> Option<f64> {
+        (self.count > 0.0).then(|| match statistic {
+            Statistic::Max => self.largest,
+            Statistic::Min => self.smallest,
+            Statistic::Final => self.last,
+            Statistic::Rms => (self.squares / self.count).sqrt(),
+        })
+    }
+}
+
+/// Statistics over the whole run, and over each phase.
+#[derive(Debug, Clone)]
+pub(crate) struct Watch {
+    pub(crate) quantities: Vec<Quantity>,
+    whole: Vec<Running>,
+    phases: Vec<Vec<Running>>,
+}
+
+impl Watch {
+    pub(crate) fn new(quantities: Vec<Quantity>, phases: usize) -> Self {
+        let empty = vec![Running::default(); quantities.len()];
+        Self { quantities, whole: empty.clone(), phases: vec![empty; phases] }
+    }
+    /// Values of all quantities at one instant of a phase.
+    pub(crate) fn add(&mut self, phase: usize, values: &[f64]) {
+        self.whole.iter_mut().zip(values).for_each(|(r, &x)| r.add(x));
+        if let Some(running) = self.phases.get_mut(phase) {
+            running.iter_mut().zip(values).for_each(|(r, &x)| r.add(x));
+        }
+    }
+    /// A statistic of a quantity, over the whole run or one phase.
+    pub(crate) fn value(
+        &self,
+        quantity: usize,
+        statistic: Statistic,
+        phase: Option<usize>,
+    ) -> Option<f64> {
+        match phase {
+            None => self.whole.get(quantity)?.get(statistic),
+            Some(phase) => self.phases.get(phase)?.get(quantity)?.get(statistic),
+        }
+    }
+    /// Every metric that has a value, over the whole run.
+    pub(crate) fn metrics(&self) -> Vec<Metric> {
+        let mut metrics = vec![];
+        for (i, quantity) in self.quantities.iter().enumerate() {
+            for &statistic in quantity.statistics {
+                let Some(value) = self.value(i, statistic, None) else { continue };
+                let name = format!("{}.{}", quantity.name, statistic.name());
+                metrics.push(Metric { name, value, unit: quantity.kind.si().into() });
+            }
+        }
+        metrics
+    }
+}

@@ -1,0 +1,220 @@
+//! One phase out of a mission file.
+
+use crate::format::{
+    ArmLawFile, AxesFile, GraspFile, JointLimitsFile, KeepFile, MissionFile, MoveJointsFile,
+    MoveToolFile, PhaseFile, ShapeFile, ToolLimitsFile, ToolPoseFile,
+};
+use crate::mission::PhaseCase;
+use crate::read_mission::Reading;
+use crate::read_setup::{attitude, axes, by_joint, posture, radians, vector};
+use wrasse_document::{Step, at};
+use wrasse_dynamics::JointKind;
+use wrasse_flight::trajectory::{MotionLimits, ProfileShape};
+use wrasse_flight::{Grip, Held, JointTarget, JointTiming, Phase, Target, Timing};
+use wrasse_spatial::{Pose, Vec3};
+use wrasse_vehicle::JOINTS;
+
+/// The phase of this number; errors if it does not say exactly one thing.
+pub(crate) fn phase(
+    r: &mut Reading<'_>,
+    i: usize,
+    file: &PhaseFile,
+    payloads: &[String],
+    mission: &MissionFile,
+) -> Option<PhaseCase> {
+    let mut grasp_bounds = (0.0, 0.0);
+    let things = [
+        file.move_tool.is_some(),
+        file.move_joints.is_some(),
+        file.hold.is_some(),
+        file.grasp.is_some(),
+        file.release.is_some(),
+    ];
+    if things.iter().filter(|&&t| t).count() != 1 {
+        let message = format!("phase {:?} must say exactly one thing to do", file.name);
+        let help = "one of move_tool, move_joints, hold, grasp, release";
+        r.error(at!["phase", i], message, help);
+        return None;
+    }
+    let phase = if let Some(m) = &file.move_tool {
+        move_tool(r, i, m)?
+    } else if let Some(m) = &file.move_joints {
+        move_joints(r, i, m, mission)?
+    } else if let Some(hold) = &file.hold {
+        let duration = r.positive(at!["phase", i, "hold", "duration_s"], hold.duration_s);
+        let what = match hold.keep {
+            KeepFile::Joints => Held::Joints,
+            KeepFile::Tool => Held::Tool,
+            KeepFile::Nothing => Held::Nothing,
+        };
+        Phase::Hold { what, duration }
+    } else if let Some(grasp) = &file.grasp {
+        grasp_bounds = bounds(r, i, grasp);
+        let path = at!["phase", i, "grasp", "payload"];
+        Phase::Grip(Grip::Grasp(r.find(path, "payload", &grasp.payload, payloads)?))
+    } else {
+        let name = &file.release.as_ref()?.payload;
+        let path = at!["phase", i, "release", "payload"];
+        Phase::Grip(Grip::Release(r.find(path, "payload", name, payloads)?))
+    };
+    Some(PhaseCase { name: file.name.clone(), phase, grasp_bounds })
+}
+
+fn bounds(r: &mut Reading<'_>, i: usize, grasp: &GraspFile) -> (f64, f64) {
+    let path = |key| [Step::Key("phase"), Step::Index(i), Step::Key("grasp"), Step::Key(key)];
+    let turn = r.not_negative(&path("largest_turn_speed_deg_s"), grasp.largest_turn_speed_deg_s);
+    (turn.to_radians(), r.not_negative(&path("largest_speed_m_s"), grasp.largest_speed_m_s))
+}
+
+fn move_tool(r: &mut Reading<'_>, i: usize, m: &MoveToolFile) -> Option<Phase<f64, JOINTS>> {
+    let path = |key| [Step::Key("phase"), Step::Index(i), Step::Key("move_tool"), Step::Key(key)];
+    let (by, to) =
+        (m.by_m.is_some() || m.turn_by_deg.is_some(), m.to_position_m.zip(m.to_attitude));
+    let target = match (by, to) {
+        (true, None) if m.to_position_m.is_none() && m.to_attitude.is_none() => Target::By {
+            displacement: m.by_m.map_or(Vec3::zero(), vector),
+            turn: m.turn_by_deg.map_or(Vec3::zero(), radians),
+        },
+        (false, Some((position, quat))) => Target::To(Pose::from_quat(
+            attitude(r, &path("to_attitude"), Some(quat)),
+            vector(position),
+        )),
+        _ => {
+            let message = "a tool is moved either by something or to a pose".into();
+            let help =
+                "give by_m and turn_by_deg (or one of them), or to_position_m and to_attitude";
+            r.error(at!["phase", i, "move_tool"], message, help);
+            return None;
+        }
+    };
+    let timing = match (m.duration_s, &m.limits) {
+        (Some(duration), None) => Timing::Duration(r.positive(&path("duration_s"), duration)),
+        (None, Some(limits)) => tool_limits(r, i, limits),
+        _ => return no_timing(r, at!["phase", i, "move_tool"]),
+    };
+    Some(Phase::MoveTool { target, axes: axes(m.axes), timing })
+}
+
+fn no_timing(r: &mut Reading<'_>, path: &[Step<'_>]) -> Option<Phase<f64, JOINTS>> {
+    let message = "a move takes either a duration or limits".into();
+    r.error(path, message, "give duration_s, or limits = { … }");
+    None
+}
+
+fn shape(file: ShapeFile) -> ProfileShape {
+    match file {
+        ShapeFile::Quintic => ProfileShape::Quintic,
+        ShapeFile::SCurve => ProfileShape::SCurve,
+    }
+}
+
+fn tool_limits(r: &mut Reading<'_>, i: usize, file: &ToolLimitsFile) -> Timing<f64> {
+    let mut number = |key: &str, x: f64| r.positive(at!["phase", i, "move_tool", "limits", key], x);
+    let linear = MotionLimits {
+        speed: number("speed_m_s", file.speed_m_s),
+        acceleration: number("acceleration_m_s2", file.acceleration_m_s2),
+        jerk: number("jerk_m_s3", file.jerk_m_s3),
+    };
+    let angular = MotionLimits {
+        speed: number("turn_speed_deg_s", file.turn_speed_deg_s).to_radians(),
+        acceleration: number("turn_acceleration_deg_s2", file.turn_acceleration_deg_s2)
+            .to_radians(),
+        jerk: number("turn_jerk_deg_s3", file.turn_jerk_deg_s3).to_radians(),
+    };
+    Timing::Limits { shape: shape(file.shape), linear, angular }
+}
+
+fn move_joints(
+    r: &mut Reading<'_>,
+    i: usize,
+    m: &MoveJointsFile,
+    mission: &MissionFile,
+) -> Option<Phase<f64, JOINTS>> {
+    let path = |key| [Step::Key("phase"), Step::Index(i), Step::Key("move_joints"), Step::Key(key)];
+    let by_name = m.to_posture.is_some() || !m.to_deg.is_empty() || !m.to_m.is_empty();
+    let to = match (&m.to_tool, by_name) {
+        (Some(pose), false) => tool_target(r, i, pose, mission),
+        (None, true) => {
+            let mut to = [None; JOINTS];
+            if let Some(name) = &m.to_posture {
+                to = posture(r, &path("to_posture"), name).map(Some);
+            }
+            by_joint(r, &path("to_deg"), &m.to_deg, JointKind::Revolute, |j, x| to[j] = Some(x));
+            by_joint(r, &path("to_m"), &m.to_m, JointKind::Prismatic, |j, x| to[j] = Some(x));
+            check_travel(r, i, &to);
+            JointTarget::Positions(to)
+        }
+        _ => {
+            let message = "joints are moved to positions or to a pose of the tool".into();
+            let help = "give to_posture, to_deg or to_m; or to_tool = { … }";
+            r.error(at!["phase", i, "move_joints"], message, help);
+            return None;
+        }
+    };
+    let timing = match (m.duration_s, &m.limits) {
+        (Some(duration), None) => JointTiming::Duration(r.positive(&path("duration_s"), duration)),
+        (None, Some(limits)) => joint_limits(r, i, limits),
+        _ => return no_timing(r, at!["phase", i, "move_joints"]),
+    };
+    Some(Phase::MoveJoints { to, timing })
+}
+
+fn tool_target(
+    r: &mut Reading<'_>,
+    i: usize,
+    pose: &ToolPoseFile,
+    mission: &MissionFile,
+) -> JointTarget<f64, JOINTS> {
+    let path = at!["phase", i, "move_joints", "to_tool"];
+    if mission.control.arm_law == ArmLawFile::FreeFloating && pose.axes == AxesFile::Inertial {
+        let message =
+            "where a floating base ends depends on the way: no joint positions belong to an \
+                       inertial pose"
+                .into();
+        r.error(path, message, "use move_tool, or axes = \"base\", or another arm_law");
+    }
+    let quat =
+        attitude(r, at!["phase", i, "move_joints", "to_tool", "attitude"], Some(pose.attitude));
+    JointTarget::Tool(Pose::from_quat(quat, vector(pose.position_m)), axes(pose.axes))
+}
+
+fn check_travel(r: &mut Reading<'_>, i: usize, to: &[Option<f64>; JOINTS]) {
+    for j in r.vehicle.robot.joints() {
+        let (Some(q), Some((lower, upper))) = (to[j], r.vehicle.limits[j].travel) else { continue };
+        if !(lower..=upper).contains(&q) {
+            let name = &r.vehicle.joint_names[j];
+            let message = format!(
+                "joint {name} shall go to {q:.4}, outside its travel from {lower:.4} to {upper:.4} \
+                 (rad or m)"
+            );
+            r.error(at!["phase", i, "move_joints"], message, "");
+        }
+    }
+}
+
+fn joint_limits(r: &mut Reading<'_>, i: usize, file: &JointLimitsFile) -> JointTiming<f64, JOINTS> {
+    let mut number =
+        |key: &str, x: f64| r.positive(at!["phase", i, "move_joints", "limits", key], x);
+    let share = number("rate_share", file.rate_share);
+    let turning = (
+        number("acceleration_deg_s2", file.acceleration_deg_s2).to_radians(),
+        number("jerk_deg_s3", file.jerk_deg_s3).to_radians(),
+    );
+    let sliding =
+        (number("acceleration_m_s2", file.acceleration_m_s2), number("jerk_m_s3", file.jerk_m_s3));
+    let mut limits = [MotionLimits { speed: 1.0, acceleration: 1.0, jerk: 1.0 }; JOINTS];
+    for j in r.vehicle.robot.joints() {
+        let (acceleration, jerk) = match r.vehicle.robot.joint(j).kind {
+            JointKind::Revolute => turning,
+            JointKind::Prismatic => sliding,
+        };
+        let Some(rate) = r.vehicle.limits[j].rate else {
+            let name = r.vehicle.joint_names[j].clone();
+            let message = format!("joint {name} has no rate limit in the vehicle file");
+            r.error(at!["phase", i, "move_joints", "limits"], message, "give duration_s instead");
+            continue;
+        };
+        limits[j] = MotionLimits { speed: rate * share, acceleration, jerk };
+    }
+    JointTiming::Limits { shape: shape(file.shape), limits }
+}

@@ -1,0 +1,235 @@
+//! The start, the world and the laws, out of a mission file.
+
+use crate::format::{
+    ArmLawFile, AttitudeFile, AxesFile, BaseFile, FeedforwardFile, JointsFile, MeasurementFile,
+    MissionFile, TaskFile,
+};
+use crate::read_mission::Reading;
+use std::collections::BTreeMap;
+use wrasse_document::{Step, at};
+use wrasse_dynamics::{BodyId, Frame, JointKind, State};
+use wrasse_flight::{
+    ArmLaw, Assignment, Axes, Feedforward, Measurement, Redundancy, Setup, Task, Tuning,
+};
+use wrasse_hardware::JointLimits;
+use wrasse_spatial::{Pose, Quat, SpatialVelocity, Vec3};
+use wrasse_vehicle::JOINTS;
+use wrasse_world::{BaseAttitude, Stepper};
+
+/// A unit quaternion; an error if it is not one.
+pub(crate) fn attitude(
+    r: &mut Reading<'_>,
+    path: &[Step<'_>],
+    file: Option<AttitudeFile>,
+) -> Quat<f64> {
+    let Some(AttitudeFile { w, x, y, z }) = file else { return Quat::identity() };
+    let quat = Quat { w, x, y, z };
+    let norm = quat.norm();
+    if (norm - 1.0).abs() > 1e-6 {
+        let message = format!("an attitude is a unit quaternion, found one of length {norm}");
+        r.error(path, message, "divide all four components by the length");
+        return Quat::identity();
+    }
+    quat.normalized()
+}
+
+/// A vector from an array.
+pub(crate) fn vector(a: [f64; 3]) -> Vec3<f64> {
+    Vec3::from_array(a)
+}
+
+/// A vector in radians from degrees.
+pub(crate) fn radians(a: [f64; 3]) -> Vec3<f64> {
+    vector(a.map(f64::to_radians))
+}
+
+pub(crate) fn axes(file: AxesFile) -> Axes {
+    match file {
+        AxesFile::Inertial => Axes::Inertial,
+        AxesFile::Base => Axes::Base,
+    }
+}
+
+/// Values by joint name into the robot's order; errors for names that are not there or of the other
+/// kind.
+pub(crate) fn by_joint(
+    r: &mut Reading<'_>,
+    path: &[Step<'_>],
+    values: &BTreeMap<String, f64>,
+    kind: JointKind,
+    mut put: impl FnMut(usize, f64),
+) {
+    let names = r.vehicle.joint_names.clone();
+    for (name, &value) in values {
+        let at_name = [path, &[Step::Key(name)]].concat();
+        let Some(j) = r.find(&at_name, "moving joint", name, &names) else { continue };
+        if r.vehicle.robot.joint(j).kind == kind {
+            put(j, if kind == JointKind::Revolute { value.to_radians() } else { value });
+        } else {
+            let (is, unit) = match kind {
+                JointKind::Revolute => ("slides", "m"),
+                JointKind::Prismatic => ("turns", "deg"),
+            };
+            r.error(&at_name, format!("joint {name} {is}"), &format!("give it in {unit}"));
+        }
+    }
+}
+
+/// Positions of a posture that the vehicle names.
+pub(crate) fn posture(r: &mut Reading<'_>, path: &[Step<'_>], name: &str) -> [f64; JOINTS] {
+    let names: Vec<String> = r.vehicle.postures.iter().map(|p| p.name.clone()).collect();
+    let mut q = [0.0; JOINTS];
+    if let Some(i) = r.find(path, "posture", name, &names) {
+        q.iter_mut().zip(&r.vehicle.postures[i].q).for_each(|(to, from)| *to = *from);
+    }
+    q
+}
+
+/// State at the start.
+pub(crate) fn start(r: &mut Reading<'_>, file: &MissionFile) -> State<f64, JOINTS> {
+    let i = &file.initial;
+    let mut state = State::default();
+    if let Some(name) = &i.posture {
+        state.q = posture(r, at!["initial", "posture"], name);
+    }
+    let (turning, sliding) = (JointKind::Revolute, JointKind::Prismatic);
+    let path = |key| [Step::Key("initial"), Step::Key(key)];
+    let (q, v) = (&mut state.q, &mut state.v);
+    by_joint(r, &path("joints_deg"), &i.joints_deg, turning, |j, x| q[j] = x);
+    by_joint(r, &path("joints_m"), &i.joints_m, sliding, |j, x| q[j] = x);
+    by_joint(r, &path("joint_rates_deg_s"), &i.joint_rates_deg_s, turning, |j, x| v[j] = x);
+    by_joint(r, &path("joint_rates_m_s"), &i.joint_rates_m_s, sliding, |j, x| v[j] = x);
+    let quat_NB = attitude(r, &path("attitude"), i.attitude);
+    state.X_NB = Pose::from_quat(quat_NB, vector(i.position_m));
+    state.V_NB_B = SpatialVelocity::new(radians(i.angular_velocity_deg_s), vector(i.velocity_m_s));
+    for j in r.vehicle.robot.joints() {
+        let Some((lower, upper)) = r.vehicle.limits[j].travel else { continue };
+        if !(lower..=upper).contains(&state.q[j]) {
+            let name = &r.vehicle.joint_names[j];
+            let message = format!(
+                "joint {name} starts at {:.4}, outside its travel from {lower:.4} to {upper:.4} (rad or m)",
+                state.q[j]
+            );
+            r.error(&path("joints_deg"), message, "");
+        }
+    }
+    state
+}
+
+/// What becomes of the base's attitude.
+pub(crate) fn base_attitude(
+    r: &mut Reading<'_>,
+    file: &MissionFile,
+    start: &State<f64, JOINTS>,
+) -> BaseAttitude {
+    let path = at!["world", "base_attitude"];
+    match file.world.base_attitude {
+        BaseFile::Held => {
+            if start.V_NB_B.angular.norm() > 0.0 {
+                let message = "a base that turns at the start cannot be held".into();
+                r.error(path, message, "set initial.angular_velocity_deg_s to zero");
+            }
+            BaseAttitude::Held
+        }
+        BaseFile::Controlled => {
+            if r.vehicle.attitude_actuator.is_none() {
+                let message = format!("vehicle {} has no attitude actuator", file.vehicle);
+                let help = "add [attitude_actuator] to its file, or choose \"held\" or \"free\"";
+                r.error(path, message, help);
+            }
+            BaseAttitude::Controlled
+        }
+        BaseFile::Free => BaseAttitude::Free,
+    }
+}
+
+pub(crate) fn stepper(r: &mut Reading<'_>, file: &MissionFile) -> Stepper {
+    let step = r.positive(at!["world", "step_s"], file.world.step_s);
+    match file.world.adaptive_tolerance {
+        None => Stepper::Fixed { step },
+        Some(tolerance) => Stepper::Adaptive {
+            tolerance: r.positive(at!["world", "adaptive_tolerance"], tolerance),
+        },
+    }
+}
+
+/// Which joints are driven by torque.
+pub(crate) fn torque_joints(r: &mut Reading<'_>, file: &MissionFile) -> [bool; JOINTS] {
+    let mut torque = [file.world.joints == JointsFile::Torque; JOINTS];
+    let names = r.vehicle.joint_names.clone();
+    for (i, name) in file.world.torque_joints.iter().enumerate() {
+        if let Some(j) = r.find(at!["world", "torque_joints", i], "moving joint", name, &names) {
+            torque[j] = true;
+        }
+    }
+    torque
+}
+
+/// The laws.
+pub(crate) fn setup(r: &mut Reading<'_>, file: &MissionFile) -> Setup<f64, JOINTS> {
+    let c = &file.control;
+    let path = |key| [Step::Key("control"), Step::Key(key)];
+    let mut redundancy = Redundancy { gain: 0.0, posture: [0.0; JOINTS] };
+    if let Some(wanted) = &c.redundancy {
+        redundancy.posture = posture(r, at!["control", "redundancy", "posture"], &wanted.posture);
+        redundancy.gain = r.positive(at!["control", "redundancy", "gain_per_s"], wanted.gain_per_s);
+    }
+    let mut limits = [JointLimits::default(); JOINTS];
+    limits.iter_mut().zip(&r.vehicle.limits).for_each(|(to, from)| *to = *from);
+    Setup {
+        assignment: Assignment {
+            tool: tool(r, &path("tool"), c.tool.as_deref()),
+            axes: Axes::Inertial,
+            task: match c.task {
+                TaskFile::Pose => Task::Pose,
+                TaskFile::Position => Task::Position,
+            },
+            law: match c.arm_law {
+                ArmLawFile::Terrestrial => ArmLaw::Terrestrial,
+                ArmLawFile::AttitudeHeld => ArmLaw::AttitudeHeld,
+                ArmLawFile::FreeFloating => ArmLaw::FreeFloating,
+            },
+            damped_below: r.positive(&path("damped_below"), c.damped_below),
+        },
+        redundancy,
+        feedforward: match c.feedforward {
+            FeedforwardFile::Exact => Feedforward::Exact,
+            FeedforwardFile::AsPrinted => Feedforward::AsPrinted,
+            FeedforwardFile::AsPrintedSystemCm => Feedforward::AsPrintedSystemCm,
+            FeedforwardFile::None => Feedforward::None,
+        },
+        measurement: match c.measurement {
+            MeasurementFile::None => Measurement::None,
+            MeasurementFile::Base => Measurement::Base,
+        },
+        tuning: tuning(r, c),
+        limits,
+        quat_ND: attitude(r, at!["initial", "attitude"], file.initial.attitude),
+    }
+}
+
+fn tuning(r: &mut Reading<'_>, c: &crate::format::ControlFile) -> Tuning<f64> {
+    let path = |key| [Step::Key("control"), Step::Key(key)];
+    Tuning {
+        period: 1.0 / r.positive(&path("rate_hz"), c.rate_hz),
+        tool_gain: r.not_negative(&path("tool_gain_per_s"), c.tool_gain_per_s),
+        joint_bandwidth: r.not_negative(&path("joint_bandwidth_rad_s"), c.joint_bandwidth_rad_s),
+        joint_damping: r.not_negative(&path("joint_damping_ratio"), c.joint_damping_ratio),
+        attitude_bandwidth: r
+            .not_negative(&path("attitude_bandwidth_rad_s"), c.attitude_bandwidth_rad_s),
+        attitude_damping: r.not_negative(&path("attitude_damping_ratio"), c.attitude_damping_ratio),
+    }
+}
+
+/// The tool that is guided: by name, or the vehicle's first, or the last link's frame.
+pub(crate) fn tool(r: &mut Reading<'_>, path: &[Step<'_>], name: Option<&str>) -> Frame<f64> {
+    let names: Vec<String> = r.vehicle.frames.iter().map(|f| f.name.clone()).collect();
+    let base = Frame { body: BodyId::Base, X_BF: Pose::identity() };
+    match name.or(r.vehicle.tools.first().map(String::as_str)) {
+        Some(name) => {
+            let name = name.to_owned();
+            r.find(path, "tool or frame", &name, &names).map_or(base, |i| r.vehicle.frames[i].frame)
+        }
+        None => r.vehicle.frames.last().map_or(base, |f| f.frame),
+    }
+}

@@ -1,0 +1,159 @@
+//! A mission run: each case planned, flown and judged.
+
+use crate::fly::{Flown, fly, ledger};
+use crate::mission::{Case, Mission};
+use crate::outcome::{
+    CaseOutcome, End, Ledger, Metric, Outcome, ProvenanceRow, Telemetry, VehicleCard,
+};
+use crate::plan::{Plan, plan};
+use crate::requirement::Requirement;
+use wrasse_vehicle::Grade;
+use wrasse_world::Stepper;
+
+/// What a run may be asked beyond its mission.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct RunOptions {
+    /// Run each case a second time at half the step, and report the difference.
+    pub error_estimate: bool,
+}
+
+/// How far a run is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress<'a> {
+    /// Number of the case, from zero.
+    pub case: usize,
+    /// Number of cases.
+    pub cases: usize,
+    /// Share of the case that is done (–).
+    pub share: f64,
+    /// What is being done.
+    pub doing: &'a str,
+}
+
+/// Run a mission.
+pub fn run(
+    mission: &Mission,
+    options: RunOptions,
+    progress: &mut dyn FnMut(Progress<'_>),
+) -> Outcome {
+    let cases = mission.cases.len();
+    let mut outcomes = vec![];
+    for (number, case) in mission.cases.iter().enumerate() {
+        let mut tell = |doing: &str, share| {
+            progress(Progress { case: number, cases, share, doing });
+        };
+        outcomes.push(run_case(case, options, &mut tell));
+    }
+    Outcome {
+        mission: mission.name.clone(),
+        summary: mission.summary.clone(),
+        mission_file: mission.file.clone(),
+        mission_text: mission.text.clone(),
+        version: env!("CARGO_PKG_VERSION").into(),
+        seed: mission.seed,
+        vehicle: vehicle_card(&mission.cases[0]),
+        environment: "Free space: nothing acts on the vehicle but its own actuators.".into(),
+        cases: outcomes,
+    }
+}
+
+fn vehicle_card(case: &Case) -> VehicleCard {
+    let vehicle = &case.vehicle;
+    let rows = vehicle.provenance.iter().map(|p| ProvenanceRow {
+        of: p.of.clone(),
+        grade: match p.grade {
+            Grade::Published => "published",
+            Grade::Derived => "derived",
+            Grade::Assumed => "assumed",
+        }
+        .into(),
+        source: p.source.clone(),
+    });
+    VehicleCard {
+        name: vehicle.name.clone(),
+        summary: vehicle.summary.clone(),
+        file: case.vehicle_name.clone(),
+        mass_kg: vehicle.robot.mass(),
+        joints: vehicle.robot.joint_count(),
+        provenance: rows.collect(),
+        remarks: vehicle.remarks.iter().map(|c| c.message.clone()).collect(),
+    }
+}
+
+fn run_case(case: &Case, options: RunOptions, tell: &mut dyn FnMut(&str, f64)) -> CaseOutcome {
+    tell("planning", 0.0);
+    let plan = plan(case);
+    if let Some(end) = &plan.blocked {
+        return not_flown(case, &plan, end.clone());
+    }
+    let flown = fly(case, &plan, case.stepper, &mut |share| tell("flying", share));
+    let mut error_estimate = vec![];
+    if options.error_estimate {
+        let finer = halved(case.stepper);
+        let again = fly(case, &plan, finer, &mut |share| tell("flying at half the step", share));
+        error_estimate = difference(case, &flown, &again);
+    }
+    let verdicts: Vec<_> = case.requirements.iter().map(|r| r.verdict(&flown.watch)).collect();
+    let ledger = ledger(&flown.ledger, case.base);
+    let completed = matches!(flown.end, End::Completed);
+    CaseOutcome {
+        labels: case.labels.clone(),
+        passed: completed && ledger.closes && verdicts.iter().all(|v| v.pass),
+        end: flown.end,
+        verdicts,
+        metrics: flown.watch.metrics(),
+        ledger,
+        plan: plan.lines,
+        events: flown.events,
+        error_estimate,
+        telemetry: flown.telemetry,
+        snapshots: flown.snapshots,
+    }
+}
+
+/// The outcome of a case whose way ends in the planning: nothing moved.
+fn not_flown(case: &Case, plan: &Plan, end: End) -> CaseOutcome {
+    CaseOutcome {
+        labels: case.labels.clone(),
+        end,
+        passed: false,
+        verdicts: case.requirements.iter().map(Requirement::unanswered).collect(),
+        metrics: vec![],
+        ledger: Ledger { closes: true, ..Ledger::default() },
+        plan: plan.lines.clone(),
+        events: vec![],
+        error_estimate: vec![],
+        telemetry: Telemetry::default(),
+        snapshots: vec![],
+    }
+}
+
+fn halved(stepper: Stepper) -> Stepper {
+    match stepper {
+        Stepper::Fixed { step } => Stepper::Fixed { step: 0.5 * step },
+        Stepper::Adaptive { tolerance } => Stepper::Adaptive { tolerance: tolerance / 32.0 },
+    }
+}
+
+/// Error of the first of two runs, the second at half the step: 16/15 of their difference at order
+/// four, and no less than it at the adaptive stepper's tighter tolerance.
+fn difference(case: &Case, coarse: &Flown, fine: &Flown) -> Vec<Metric> {
+    let (Some(a), Some(b)) = (&coarse.last, &fine.last) else { return vec![] };
+    let estimate = |name: &str, unit: &str, difference: f64| Metric {
+        name: format!("integration_error.{name}"),
+        value: difference * 16.0 / 15.0,
+        unit: unit.into(),
+    };
+    let joints = (0..case.vehicle.robot.joint_count())
+        .map(|j| (a.state.q[j] - b.state.q[j]).abs())
+        .fold(0.0, f64::max);
+    let turn = (a.base_turn - b.base_turn).norm();
+    let energy = (coarse.ledger.now.energy - fine.ledger.now.energy).abs();
+    vec![
+        estimate("tool.position", "m", (a.X_NE.translation - b.X_NE.translation).norm()),
+        estimate("base.rotation", "rad", turn),
+        estimate("base.translation", "m", (a.base_shift - b.base_shift).norm()),
+        estimate("joints", "rad or m", joints),
+        estimate("energy", "J", energy),
+    ]
+}
