@@ -1,8 +1,8 @@
 //! Barycentric vectors and the virtual manipulator: eqs (6) and (7), and their tree form.
 
 use crate::in_time::{Rate, in_time};
-use crate::measure::{for_every, for_every_robot, gap_at, size};
-use crate::random_robot::{JOINTS, Recipe, any_robot};
+use crate::measure::{any_robot, for_every, for_every_robot, gap_at, size};
+use crate::random_robot::{JOINTS, Recipe};
 use proptest::prelude::Strategy;
 use wrasse_dynamics::{
     BodyId, Frame, JointKind, Kinematics, attitude_held_jacobian, barycentric_vectors, jacobian,

@@ -1,7 +1,9 @@
 //! The same robot told differently: with a load, with an empty link, in single precision, again.
 
-use crate::measure::{Numbers, dense, dense_vector, for_every, for_every_robot, gap, gap_at, size};
-use crate::random_robot::{JOINTS, Recipe, Scene, any_robot};
+use crate::measure::{
+    Numbers, any_robot, dense, dense_vector, for_every, for_every_robot, gap, gap_at, size,
+};
+use crate::random_robot::{JOINTS, Recipe, Scene};
 use proptest::prelude::Strategy;
 use std::array;
 use wrasse_dynamics::{

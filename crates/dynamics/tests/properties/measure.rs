@@ -1,13 +1,24 @@
 //! Runs a law on many robots and says how well it held; compares what the laws compare.
 
-use crate::random_robot::{JOINTS, Recipe, Scene, any_robot};
+use crate::random_robot::{JOINTS, Recipe, Scene};
 use nalgebra::{DMatrix, DVector};
-use proptest::prelude::Strategy;
+use proptest::prelude::{Strategy, any};
 use proptest::test_runner::{Config, RngSeed, TestCaseError, TestRunner};
 use std::cell::Cell;
 use std::thread;
 use wrasse_dynamics::{Generalized, MassMatrix, Robot};
 use wrasse_spatial::{Mat3, Pose, SpatialForce, SpatialVelocity, Vec3};
+
+/// Trees of 1 to 12 joints on 1 to 3 arms, branching, a quarter of the joints sliding.
+pub(crate) fn any_robot() -> impl Strategy<Value = Recipe> {
+    (any::<u64>(), 1..=JOINTS, 1..=3_usize).prop_map(|(seed, joints, arms)| Recipe {
+        seed,
+        joints,
+        arms,
+        sliding: 0.25,
+        branching: 0.3,
+    })
+}
 
 /// The law's relative error must stay within the bound on 256 random trees. The worst one is printed
 /// (`--nocapture`): that is the number measured beside each bound. Bounds of round-off stand ten to a

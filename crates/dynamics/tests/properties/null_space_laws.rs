@@ -1,7 +1,7 @@
 //! The reaction null space: joint motion that leaves the base's attitude alone.
 
-use crate::measure::{dense_columns, for_every, for_every_robot, gap, gap_at, size};
-use crate::random_robot::{JOINTS, Random, Recipe, Scene, any_robot};
+use crate::measure::{any_robot, dense_columns, for_every, for_every_robot, gap, gap_at, size};
+use crate::random_robot::{JOINTS, Random, Recipe, Scene};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::Strategy;
 use proptest::strategy::ValueTree;

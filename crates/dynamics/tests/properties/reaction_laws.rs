@@ -1,8 +1,8 @@
 //! The reaction at the mounts and the attitude torque: exact, by the sum over bodies, and as printed.
 
 use crate::in_time::{Rate, in_time};
-use crate::measure::{for_every, for_every_robot, gap, gap_at, size};
-use crate::random_robot::{JOINTS, Recipe, Scene, any_robot};
+use crate::measure::{any_robot, for_every, for_every_robot, gap, gap_at, size};
+use crate::random_robot::{JOINTS, Recipe, Scene};
 use proptest::prelude::Strategy;
 use wrasse_dynamics::{
     BaseMode, BodyId, Generalized, JointDrive, PerBody, State, attitude_torque, driven_dynamics,

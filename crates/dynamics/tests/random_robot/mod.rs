@@ -1,7 +1,6 @@
 //! Random trees that could be built: each body is a box with two point masses on it, in general
 //! position, so that its inertia is physically possible and nothing is zero by accident.
 
-use proptest::prelude::{Strategy, any};
 use std::array;
 use wrasse_dynamics::{
     BodyId, Frame, Generalized, GeneralizedVelocity, Joint, JointKind, Payload, PerBody, Robot,
@@ -22,17 +21,6 @@ pub(crate) struct Recipe {
     pub(crate) sliding: f64,
     /// Chance that a joint does not continue its arm but starts a branch (–).
     pub(crate) branching: f64,
-}
-
-/// Trees of 1 to 12 joints on 1 to 3 arms, branching, a quarter of the joints sliding.
-pub(crate) fn any_robot() -> impl Strategy<Value = Recipe> {
-    (any::<u64>(), 1..=JOINTS, 1..=3_usize).prop_map(|(seed, joints, arms)| Recipe {
-        seed,
-        joints,
-        arms,
-        sliding: 0.25,
-        branching: 0.3,
-    })
 }
 
 /// A robot in motion, and what its motion is tested with.
