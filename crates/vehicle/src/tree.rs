@@ -4,6 +4,7 @@ use crate::assembly::{AssemblyJoint, Link};
 use crate::findings::Findings;
 use std::collections::BTreeMap;
 use std::ops::Range;
+use wrasse_document::closest;
 
 /// A tree over the links and joints of a file, by their places in its lists.
 #[derive(Debug)]
@@ -33,21 +34,12 @@ pub(crate) fn tree(links: &[Link], joints: &[AssemblyJoint], found: &mut Finding
     let edges: Vec<_> = joints.iter().map(|j| ends(j, &names, found)).collect();
     let carriers = carriers(links, joints, &edges, found);
     let looped = complain_of_loops(links, joints, &edges, &carriers, found);
-    // A child that is not known, or known twice, leaves another link without parent: one complaint
-    // is enough.
-    let unknown = edges.iter().filter(|(_, child)| child.is_none()).count();
-    let double: usize = carriers.iter().map(|c| c.len().saturating_sub(1)).sum();
-    let roots: Vec<_> = names.values().copied().filter(|&l| carriers[l].is_empty()).collect();
-    if roots.len() > 1 + unknown + double {
-        complain_of_roots(links, roots, found);
-        return None;
+    let roots = roots(joints, &names, &edges, &carriers);
+    if roots.len() > 1 {
+        complain_of_roots(links, &roots, found);
     }
-    let root = *roots.first()?;
-    if looped
-        || roots.len() > 1
-        || names.len() < links.len()
-        || carriers.iter().any(|c| c.len() > 1)
-    {
+    let [root] = roots[..] else { return None };
+    if looped || names.len() < links.len() || carriers.iter().any(|c| c.len() > 1) {
         return None;
     }
     let edges = edges
@@ -90,7 +82,7 @@ fn ends(
                 "joint '{}' has the {role} '{name}', but no link has that name",
                 joint.name
             );
-            let help = match wrasse_document::closest(name, names.keys().copied()) {
+            let help = match closest(name, names.keys().copied()) {
                 Some(close) => format!("did you mean '{close}'?"),
                 None => format!("links are {}", listed(names.keys())),
             };
@@ -191,9 +183,35 @@ fn ring_through(
     names.join(" → ")
 }
 
-/// One complaint for each root after the first.
-fn complain_of_roots(links: &[Link], mut roots: Vec<usize>, found: &mut Findings) {
+/// Links that no joint carries. A child that is not known, or known twice, leaves another link
+/// without parent: one complaint is enough, so those are left out.
+fn roots(
+    joints: &[AssemblyJoint],
+    names: &BTreeMap<&str, usize>,
+    edges: &[(Option<usize>, Option<usize>)],
+    carriers: &[Vec<usize>],
+) -> Vec<usize> {
+    let mut roots: Vec<_> = names.values().copied().filter(|&l| carriers[l].is_empty()).collect();
     roots.sort_unstable();
+    let mut explained: usize = carriers.iter().map(|c| c.len().saturating_sub(1)).sum();
+    let unknown = joints.iter().zip(edges).filter(|(_, (_, child))| child.is_none());
+    for (joint, _) in unknown {
+        let meant = closest(&joint.child, names.keys().copied()).and_then(|name| names.get(name));
+        match roots.iter().position(|root| Some(root) == meant) {
+            Some(place) => {
+                roots.remove(place);
+            }
+            None => explained += 1,
+        }
+    }
+    if roots.len() <= 1 + explained {
+        roots.truncate(1);
+    }
+    roots
+}
+
+/// One complaint for each root after the first.
+fn complain_of_roots(links: &[Link], roots: &[usize], found: &mut Findings) {
     let first = &links[roots[0]];
     for &other in &roots[1..] {
         let message = format!(

@@ -54,7 +54,7 @@ impl Reading<'_> {
     /// A link and its outlines; nothing if it has no name.
     pub(crate) fn link(&mut self, node: Node<'_, '_>) -> Option<(Link, Vec<Outline>)> {
         let element = self.open(node, &LINK);
-        let matter = element.only("inertial", self).map(|inertial| self.matter(inertial));
+        let matter = element.only("inertial", self).and_then(|inertial| self.matter(inertial));
         let outlines: Vec<_> =
             element.children("visual").filter_map(|visual| self.outline(visual)).collect();
         let name = element.required("name", self)?;
@@ -63,8 +63,9 @@ impl Reading<'_> {
         Some((link, outlines.into_iter().map(outline).collect()))
     }
 
-    /// Mass properties. After a complaint, neutral values stand in: the rest is still checked.
-    fn matter(&mut self, node: Node<'_, '_>) -> Matter {
+    /// Mass properties; nothing if all are zero. After a complaint, neutral values stand in: the rest
+    /// is still checked.
+    fn matter(&mut self, node: Node<'_, '_>) -> Option<Matter> {
         let element = self.open(node, &INERTIAL);
         let origin = element.only("origin", self);
         let X_LC = self.pose(origin);
@@ -79,7 +80,12 @@ impl Reading<'_> {
             Some(child) => (self.inertia(&child), child.at.clone()),
             None => (None, element.at.clone()),
         };
-        Matter {
+        if mass == Some(0.0) && inertia == Some(Sym3::zero()) {
+            let message = "mass and inertia are zero: read as a mere frame".to_owned();
+            self.found.warning(&mass_at, message, "no mass", "a frame has no <inertial>");
+            return None;
+        }
+        Some(Matter {
             mass: mass.unwrap_or(1.0),
             mass_at,
             p_cm: X_LC.translation,
@@ -87,7 +93,7 @@ impl Reading<'_> {
             inertia: X_LC.rotation.congruence(inertia.unwrap_or(Sym3::diagonal(1.0, 1.0, 1.0))),
             inertia_at,
             accept_nonphysical: None,
-        }
+        })
     }
 
     fn inertia(&mut self, element: &Element<'_, '_>) -> Option<Sym3<f64>> {

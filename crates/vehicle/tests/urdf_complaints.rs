@@ -1,6 +1,6 @@
 //! What a user is told about a URDF that is wrong: which complaint, where, and nothing besides.
 
-use wrasse_document::{Complaint, Severity};
+use wrasse_document::{Complaint, Severity, render};
 use wrasse_vehicle::{Vehicle, read_vehicle};
 
 const ARM: &str = r#"<robot name="arm">
@@ -219,6 +219,24 @@ fn a_file_with_ten_mistakes_draws_ten_complaints() {
 }
 
 #[test]
+fn a_link_whose_mass_properties_are_all_zero_is_a_frame() {
+    let zero = "<link name=\"tool\"><inertial><mass value=\"0\"/><inertia ixx=\"0\" ixy=\"0\" \
+                ixz=\"0\" iyy=\"0\" iyz=\"0\" izz=\"0\"/></inertial></link>";
+    let complaints = told(&ARM.replace("<link name=\"tool\"/>", zero));
+    let [complaint] = &complaints[..] else { panic!("{complaints:#?}") };
+    assert_eq!(complaint.severity, Severity::Warning);
+    assert_eq!(complaint.message, "mass and inertia are zero: read as a mere frame");
+}
+
+/// An ideal rod meets the triangle inequality with equality; rounding must not break it.
+#[test]
+fn a_thin_rod_is_possible_within_the_rounding_of_its_file() {
+    let rod = |izz: &str| told(&ARM.replace("izz=\"0.425\"", &format!("izz=\"{izz}\"")));
+    assert_eq!(rod("0.4300000001"), []);
+    assert_eq!(rod("0.43000001").len(), 1);
+}
+
+#[test]
 fn a_moving_body_without_mass_is_an_error() {
     let inertial = ARM.find("<inertial>\n      <mass value=\"4\"/>").expect("there");
     let end = inertial + ARM[inertial..].find("</inertial>").expect("there") + 11;
@@ -313,4 +331,12 @@ fn the_numbers_under_an_entity_are_read_and_told_as_a_whole() {
     assert_eq!(told(&ARM.replace("value=\"5\"", "value=\"&#53;\"")), []);
     let complaints = told(&ARM.replace("value=\"5\"", "value=\"&#53;x\""));
     assert_eq!(under_the_caret(&complaints[0]), "&#53;x");
+}
+
+#[test]
+fn a_user_sees_each_mistake_with_its_line_its_caret_and_how_to_mend_it() {
+    let text = include_str!("data/many_mistakes.urdf");
+    let complaints = read_vehicle("many_mistakes.urdf", text).expect_err("mistakes");
+    let shown = include_str!("data/many_mistakes_urdf.txt");
+    assert_eq!(render(&complaints, false), shown);
 }
