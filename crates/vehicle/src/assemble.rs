@@ -186,3 +186,58 @@ fn place(body: BodyId) -> usize {
         BodyId::Link(j) => j + 1,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::assembly::Matter;
+    use wrasse_document::Severity;
+    use wrasse_spatial::{Sym3, vec3};
+
+    fn bus(mass: f64, zz: f64, accept_nonphysical: Option<&str>) -> Link {
+        let matter = Matter {
+            mass,
+            mass_at: 0..1,
+            p_cm: vec3(0.0, 0.0, 0.0),
+            inertia: Sym3::diagonal(1.0, 1.0, zz),
+            inertia_at: 1..2,
+            accept_nonphysical: accept_nonphysical.map(str::to_owned),
+        };
+        Link { name: "bus".into(), at: 0..1, matter: Some(matter) }
+    }
+
+    fn assembled(bus: Link) -> Result<Assembled, Vec<Complaint>> {
+        assemble(&Source::new("bus.toml", "bus"), &[bus], &[])
+    }
+
+    #[test]
+    fn a_reason_turns_impossible_inertia_into_a_warning_that_quotes_it() {
+        let refused = assembled(bus(5.0, 3.0, None)).expect_err("an error");
+        assert_eq!(refused[0].severity, Severity::Error);
+        let accepted = assembled(bus(5.0, 3.0, Some("printed so"))).expect("a robot");
+        let [warning] = &accepted.warnings[..] else { panic!("{:?}", accepted.warnings) };
+        assert_eq!(warning.severity, Severity::Warning);
+        assert!(warning.help.as_deref().is_some_and(|help| help.ends_with("says: printed so")));
+        assert_eq!(accepted.robot.mass(), 5.0);
+    }
+
+    #[test]
+    fn no_reason_makes_a_vehicle_without_mass_or_with_numbers_that_are_not_finite() {
+        for (mass, zz, told) in
+            [(-5.0, 1.0, "whole vehicle"), (f64::NAN, 1.0, "finite"), (5.0, f64::NAN, "finite")]
+        {
+            let complaints = assembled(bus(mass, zz, Some("printed so"))).expect_err("an error");
+            let errors: Vec<_> =
+                complaints.iter().filter(|c| c.severity == Severity::Error).collect();
+            assert_eq!(errors.len(), 1, "{complaints:?}");
+            assert!(errors[0].message.contains(told), "{errors:?}");
+        }
+    }
+
+    #[test]
+    fn a_reason_that_is_not_needed_is_warned_of() {
+        let assembled = assembled(bus(5.0, 1.5, Some("printed so"))).expect("a robot");
+        assert_eq!(assembled.warnings.len(), 1);
+        assert!(assembled.warnings[0].message.contains("but its are possible"));
+    }
+}
