@@ -66,8 +66,8 @@
       ctx.font = 10 * ratio + "px system-ui, sans-serif";
       ctx.textAlign = "left";
       ctx.textBaseline = "top";
-      events.forEach((event, k) => {
-        const x = u.valToPos(event.time, "x", true);
+      events.forEach((time, k) => {
+        const x = u.valToPos(time, "x", true);
         if (!(x >= bbox.left - 1 && x <= bbox.left + bbox.width + 1)) return;
         ctx.beginPath();
         ctx.moveTo(x, bbox.top);

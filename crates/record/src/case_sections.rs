@@ -8,6 +8,9 @@ use crate::ledger_rests::ledger_rests;
 use crate::markup::{dotted, escaped, figure, table, verdict_mark, words};
 use crate::numbers::{beside_limit, power, significant};
 
+/// Most events in the page, in the table and in the plots.
+pub(crate) const EVENTS: usize = 400;
+
 /// Where a case stands in the page.
 pub(crate) struct Place {
     /// Level of its headings.
@@ -130,12 +133,19 @@ fn events(case: &CaseOutcome) -> String {
         .events
         .iter()
         .enumerate()
+        .take(EVENTS)
         .map(|(k, event)| {
             let (number, time) = ((k + 1).to_string(), significant(event.time_s));
             vec![figure(&number), figure(&time), words(&event.text)]
         })
         .collect();
-    table("text", &["No.", "Time (s)", "What happened"], &rows)
+    let rest = if case.events.len() > EVENTS {
+        let all = case.events.len();
+        format!("<p>These are the first {EVENTS} of {all}; summary.json has the rest.</p>\n")
+    } else {
+        String::new()
+    };
+    table("text", &["No.", "Time (s)", "What happened"], &rows) + &rest
 }
 
 fn ledger(ledger: &Ledger) -> String {

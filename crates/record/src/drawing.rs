@@ -6,6 +6,8 @@ use crate::numbers::significant;
 
 /// Most instants in one picture; more would hide each other.
 const INSTANTS: usize = 5;
+/// Most points of the tool's path.
+const PATH_POINTS: usize = 500;
 /// Width of the drawn field (SVG units; about pixels).
 const WIDTH: f64 = 520.0;
 /// Most height of a field.
@@ -34,7 +36,7 @@ struct View {
 pub(crate) fn drawing(snapshots: &[Snapshot]) -> Option<String> {
     let drawn: Vec<&Snapshot> = snapshots.iter().filter(|s| drawable(s)).collect();
     let (first, last) = (drawn.first()?, drawn.last()?);
-    let instants = instants(&drawn);
+    let instants = evenly(&drawn, INSTANTS);
     let times: Vec<_> = instants.iter().map(|s| significant(s.time)).collect();
     let span = if times.len() > 1 {
         format!("at {} s, from light to dark", times.join(", "))
@@ -68,9 +70,9 @@ fn points(snapshot: &Snapshot) -> impl Iterator<Item = [f64; 3]> {
     corners.chain(joints).chain([snapshot.tool, snapshot.reference])
 }
 
-/// The first, the last, and some between them, evenly.
-fn instants<'a>(drawn: &[&'a Snapshot]) -> Vec<&'a Snapshot> {
-    let count = drawn.len().min(INSTANTS);
+/// At most `most` snapshots: the first, the last, and those between them, evenly.
+fn evenly<'a>(drawn: &[&'a Snapshot], most: usize) -> Vec<&'a Snapshot> {
+    let count = drawn.len().min(most);
     let last = drawn.len() - 1;
     (0..count).map(|k| drawn[k * last / (count - 1).max(1)]).collect()
 }
@@ -132,8 +134,9 @@ fn svg(view: &View, drawn: &[&Snapshot], instants: &[&Snapshot], times: [f64; 2]
         let strength = (k + 1) as f64 / instants.len() as f64;
         svg += &instant(view, snapshot, 0.1 + 0.9 * strength * strength);
     }
-    let wanted: Vec<_> = drawn.iter().map(|s| view.on_sheet(s.reference)).collect();
-    let gone: Vec<_> = drawn.iter().map(|s| view.on_sheet(s.tool)).collect();
+    let along = evenly(drawn, PATH_POINTS);
+    let wanted: Vec<_> = along.iter().map(|s| view.on_sheet(s.reference)).collect();
+    let gone: Vec<_> = along.iter().map(|s| view.on_sheet(s.tool)).collect();
     svg += &format!("<polyline class=\"wanted\" points=\"{}\"/>\n", sheet_points(&wanted));
     svg += &format!("<polyline class=\"gone\" points=\"{}\"/>\n", sheet_points(&gone));
     if let [first, .., last] = gone.as_slice() {
@@ -286,6 +289,27 @@ mod tests {
         let corners: Vec<Point> =
             (0..8).map(|k| [f64::from(k & 1), f64::from((k >> 1) & 1)]).collect();
         assert_eq!(hull(&corners), [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+    }
+
+    #[test]
+    fn both_views_have_one_scale_with_x_to_the_right_and_y_or_z_up() {
+        let at = |time: f64, tool: [f64; 3]| Snapshot {
+            time,
+            boxes: vec![],
+            arms: vec![],
+            tool,
+            reference: tool,
+        };
+        let (near, far) = (at(0.0, [0.0; 3]), at(1.0, [2.0, 1.0, 0.5]));
+        let drawn = [&near, &far];
+        let [above, side] = views(&drawn, &drawn);
+        for (view, up) in [(above, 1.0), (side, 0.5)] {
+            let [from, to] = drawn.map(|s| view.on_sheet(s.tool));
+            let across = to[0] - from[0];
+            assert!(across > 0.0);
+            // The sheet counts downwards. Measured 3e-14 and 2e-14 of some 200.
+            assert!((from[1] - to[1] - across * up / 2.0).abs() < 1e-10);
+        }
     }
 
     #[test]

@@ -3,6 +3,7 @@
 use serde_json::{Value, json};
 use wrasse_mission::{CaseOutcome, Channel, Telemetry};
 
+use crate::case_sections::EVENTS;
 use crate::comparison::case_name;
 
 /// Numbers that one page carries. Each takes 16/3 characters, so this is about 2.2 MB.
@@ -25,8 +26,7 @@ pub(crate) fn plot_data(cases: &[CaseOutcome]) -> Value {
 }
 
 fn case_data(case: &CaseOutcome, most: usize) -> Value {
-    let events: Vec<_> =
-        case.events.iter().map(|e| json!({ "time": e.time_s, "text": e.text })).collect();
+    let events: Vec<_> = case.events.iter().take(EVENTS).map(|event| event.time_s).collect();
     let names = plot_names(&case.telemetry);
     let plots: Vec<_> = names.iter().map(|name| plot(&case.telemetry, name, most)).collect();
     json!({ "name": case_name(case), "events": events, "plots": plots })

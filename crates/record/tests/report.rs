@@ -169,6 +169,16 @@ fn what_cannot_be_drawn_or_plotted_leaves_a_page_all_the_same() {
 }
 
 #[test]
+fn of_very_many_events_the_first_are_shown_and_the_rest_is_counted() {
+    let mut outcome = sample::single();
+    let event = outcome.cases[0].events[0].clone();
+    outcome.cases[0].events = vec![event; 5000];
+    let markup = check_well_formed(&outcome);
+    assert!(markup.contains("the first 400 of 5000"));
+    assert_eq!(markup.matches("phase settle begins").count(), 400);
+}
+
+#[test]
 fn a_run_that_broke_down_leaves_a_page_and_a_table() {
     let mut outcome = sample::single();
     let case = &mut outcome.cases[0];
