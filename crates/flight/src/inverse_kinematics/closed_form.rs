@@ -76,8 +76,9 @@ pub enum ClosedForm<T> {
     NotFinite,
 }
 
-/// Fixed-point passes at most: each gains two digits or more on any arm that is light against its
-/// base, so that four or five reach rounding.
+/// Fixed-point passes at most. Each shrinks the error by the mass that lies beside the axes over the
+/// total, times its offset over the arm's length: six passes reach rounding with links 5 cm off their
+/// axes on a bus of 1500 kg, twelve with links 10 cm off on one of 400 kg.
 const PASSES: u32 = 20;
 /// Sine of the angle between reference axis and shoulder–wrist line below which the second axis is
 /// taken: near the axis the arm would have to turn 1/sine times as fast as the line.

@@ -60,7 +60,8 @@ pub(crate) fn cube(mass: f64, aside: Vec3<f64>) -> Payload<f64> {
 }
 
 /// An industrial lightweight arm, axes z, y, z | y | z, y, z, its frames placed off the points
-/// where the axes meet, on a turned mount; the elbow's axis is `elbow_offset` (m) off the line.
+/// where the axes meet, on a turned mount; the elbow's axis is `elbow_offset` (m) off the line,
+/// and the forearm 0.03 m along it.
 pub(crate) fn upright_arm(elbow_offset: f64) -> (Robot<f64, 8>, Frame<f64>) {
     let turned = |r: Vec3<f64>, p: Vec3<f64>| Pose::from_quat(Quat::exp(r), p);
     let rows = [
@@ -68,7 +69,7 @@ pub(crate) fn upright_arm(elbow_offset: f64) -> (Robot<f64, 8>, Frame<f64>) {
         (turned(vec3(0.0, 0.0, 0.2), vec3(0.0, 0.0, 0.31)), Y),
         (turned(vec3(0.0, -0.5, 0.0), Vec3::zero()), vec3(-(0.5_f64.sin()), 0.0, 0.5_f64.cos())),
         (turned(Vec3::zero(), along_third(0.4) + X * elbow_offset), Y),
-        (turned(vec3(0.0, 0.3, 0.0), along_third(0.1) + X * (-elbow_offset)), fifth()),
+        (turned(vec3(0.0, 0.3, 0.0), along_third(0.1) + X * (-elbow_offset) + Y * 0.03), fifth()),
         (turned(Vec3::zero(), fifth() * 0.29), Y),
         (turned(Vec3::zero(), Y * 0.0), fifth()),
     ];

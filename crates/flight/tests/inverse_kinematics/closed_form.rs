@@ -238,9 +238,11 @@ fn the_nearest_solution_is_the_one_that_was_gone_from() {
 
     let mut travel = [None; 7];
     travel[3] = Some((-2.0, -0.1));
+    travel[2] = Some((0.0, 6.0));
     travel[6] = Some((-3.2, 3.2));
     let other = solutions.nearest_within(&travel).unwrap();
     assert!((other.q[3] + 1.0).abs() < 1e-14 && other.q[6].abs() <= 3.2, "{other:?}");
+    assert!((0.0..=6.0).contains(&other.q[2]), "a whole turn added: {other:?}");
     travel[3] = Some((-0.1, 0.1));
     assert_eq!(solutions.nearest_within(&travel), None);
 }
