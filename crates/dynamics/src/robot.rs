@@ -163,7 +163,7 @@ pub struct Robot<T, const J: usize> {
     matter: PerBody<Payload<T>, J>,
 }
 
-/// Why a robot cannot be built or used.
+/// Why a robot cannot be built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum RobotError {
@@ -179,11 +179,6 @@ pub enum RobotError {
         /// The joint's number.
         joint: usize,
     },
-    /// A body without positive, finite mass.
-    NoMass {
-        /// The body.
-        body: BodyId,
-    },
 }
 
 impl fmt::Display for RobotError {
@@ -195,7 +190,6 @@ impl fmt::Display for RobotError {
             Self::ParentAfterChild { joint } => {
                 write!(f, "joint {joint} is mounted on a body that does not come before it")
             }
-            Self::NoMass { body } => write!(f, "{body:?} has no positive mass"),
         }
     }
 }
@@ -203,6 +197,8 @@ impl core::error::Error for RobotError {}
 
 impl<T: Real, const J: usize> Robot<T, J> {
     /// From its base, and each joint with the body it carries (about the body's origin).
+    ///
+    /// Masses and inertias are taken as they are: whether they are physical is asked where they are read.
     ///
     /// # Errors
     /// If there are more than `J` joints, or a parent does not come before its child.
@@ -362,5 +358,60 @@ pub type GeneralizedForce<T, const J: usize> = Generalized<SpatialForce<T>, T, J
 impl<B: Default, T: Real, const J: usize> Default for Generalized<B, T, J> {
     fn default() -> Self {
         Self { base: B::default(), joints: [T::zero(); J] }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use std::{string::ToString, vec, vec::Vec};
+    use wrasse_spatial::vec3;
+
+    fn on(parent: BodyId) -> (Joint<f64>, Payload<f64>) {
+        let joint = Joint::new(parent, JointKind::Revolute, Pose::identity(), vec3(0.0, 0.0, 2.0));
+        (joint, Payload::from_central(1.0, Vec3::zero(), Sym3::diagonal(1.0, 1.0, 1.0)))
+    }
+
+    #[test]
+    fn a_parent_must_come_before_its_child() {
+        for (links, joint) in [
+            (vec![on(BodyId::Link(0))], 0),
+            (vec![on(BodyId::Base), on(BodyId::Link(2)), on(BodyId::Base)], 1),
+        ] {
+            let found = Robot::<f64, 4>::new(Payload::default(), &links);
+            assert_eq!(found.unwrap_err(), RobotError::ParentAfterChild { joint });
+        }
+    }
+
+    #[test]
+    fn more_joints_than_there_is_room_for_are_refused() {
+        let error = Robot::<f64, 2>::new(Payload::default(), &[on(BodyId::Base); 3]).unwrap_err();
+        assert_eq!(error, RobotError::TooManyJoints { found: 3, capacity: 2 });
+        assert_eq!(error.to_string(), "3 moving joints, at most 2 fit");
+    }
+
+    #[test]
+    fn a_path_leads_from_the_tip_to_the_joint_on_the_base() {
+        let links =
+            [BodyId::Base, BodyId::Base, BodyId::Link(0), BodyId::Link(2), BodyId::Link(1)].map(on);
+        let robot = Robot::<f64, 5>::new(Payload::default(), &links).unwrap();
+        assert_eq!(robot.path_to_base(BodyId::Link(3)).collect::<Vec<_>>(), [3, 2, 0]);
+        let roots = robot.bodies().map(|body| robot.chain_root(body)).collect::<Vec<_>>();
+        assert_eq!(roots, [None, Some(0), Some(1), Some(0), Some(0), Some(1)]);
+    }
+
+    #[test]
+    fn an_axis_is_made_a_unit_vector() {
+        assert_eq!(on(BodyId::Base).0.axis_B, vec3(0.0, 0.0, 1.0));
+    }
+
+    /// `[0 0 1]` turned by a quarter about x points along -y. Measured 6e-17.
+    #[test]
+    fn a_joint_turns_by_the_right_hand() {
+        let x =
+            Joint::new(BodyId::Base, JointKind::Revolute, Pose::identity(), vec3(1.0, 0.0, 0.0));
+        let turned = x.X_PB(core::f64::consts::FRAC_PI_2).rotation * vec3(0.0, 0.0, 1.0);
+        assert!((turned - vec3(0.0, -1.0, 0.0)).norm() < 1e-16, "{turned:?}");
     }
 }

@@ -130,9 +130,9 @@ impl Chain {
         for _ in 0..60 {
             let middle = 0.5 * (low + high);
             if self.determinant([q1, middle]).signum() == sign {
-                low = middle
+                low = middle;
             } else {
-                high = middle
+                high = middle;
             }
         }
         0.5 * (low + high)

@@ -3,7 +3,6 @@
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 #![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
 #![allow(clippy::print_stdout, reason = "prints what was measured, under --nocapture")]
-#![allow(clippy::cast_possible_truncation, reason = "a number below the number of joints")]
 
 #[path = "../random_robot/mod.rs"]
 mod random_robot;

@@ -105,7 +105,7 @@ impl Random {
         self.between(-size, size)
     }
     pub(crate) fn below(&mut self, count: usize) -> usize {
-        (self.next() % count as u64) as usize
+        usize::try_from(self.next() % count as u64).unwrap()
     }
     pub(crate) fn vector(&mut self, size: f64) -> Vec3<f64> {
         vec3(self.within(size), self.within(size), self.within(size))
