@@ -104,3 +104,57 @@ impl<T: Real> Real for Dual<T> {
         Self::new(T::select(mask, a.value, b.value), T::select(mask, a.derivative, b.derivative))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A variable at 0.7.
+    fn x() -> Dual<f64> {
+        Dual::new(0.7, 1.0)
+    }
+
+    fn c(value: f64) -> Dual<f64> {
+        Dual::from_f64(value)
+    }
+
+    #[track_caller]
+    fn check(found: Dual<f64>, value: f64, derivative: f64) {
+        assert!((found.value - value).abs() < 1e-15, "{found:?}, not {value}");
+        assert!((found.derivative - derivative).abs() < 1e-15, "{found:?}, not {derivative}");
+    }
+
+    /// Each rule by hand. Round-off: measured 1e-16.
+    #[test]
+    fn each_operation_carries_its_derivative() {
+        check(x() + x(), 1.4, 2.0);
+        check(x() - c(0.2), 0.5, 1.0);
+        check(c(0.2) - x(), -0.5, -1.0);
+        check(x() * x(), 0.49, 1.4);
+        check(c(1.0) / x(), 1.0 / 0.7, -1.0 / 0.49);
+        check(x() / (x() + c(1.0)), 0.7 / 1.7, 1.0 / (1.7 * 1.7));
+        check(-x(), -0.7, -1.0);
+        check(x().sqrt(), 0.7_f64.sqrt(), 0.5 / 0.7_f64.sqrt());
+        let (s, c) = x().sin_cos();
+        check(s, 0.7_f64.sin(), 0.7_f64.cos());
+        check(c, 0.7_f64.cos(), -0.7_f64.sin());
+    }
+
+    #[test]
+    fn assignments_carry_their_derivative() {
+        let mut y = x();
+        y += x();
+        check(y, 1.4, 2.0);
+        y -= c(0.4);
+        check(y, 1.0, 2.0);
+        y *= x();
+        check(y, 0.7, 2.4);
+    }
+
+    #[test]
+    fn a_choice_keeps_the_derivative_of_what_is_chosen() {
+        check((-x()).abs(), 0.7, 1.0);
+        check(x().max(c(0.9)), 0.9, 0.0);
+        check(x().min(c(0.9)), 0.7, 1.0);
+    }
+}

@@ -246,3 +246,67 @@ impl<T: Real> AddAssign for Sym3<T> {
         *self = *self + b;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn general() -> Mat3<f64> {
+        Mat3::from_rows(vec3(1.0, 2.0, 3.0), vec3(-4.0, 5.0, 6.0), vec3(7.0, -8.0, 10.0))
+    }
+
+    fn definite() -> Sym3<f64> {
+        Sym3 { xx: 3.0, xy: 0.5, xz: -1.0, yy: 4.0, yz: 0.75, zz: 5.0 }
+    }
+
+    #[test]
+    fn rows_columns_and_products_agree_by_hand() {
+        let (M, v) = (general(), vec3(1.0, -1.0, 2.0));
+        assert_eq!(M * v, vec3(5.0, 3.0, 35.0));
+        assert_eq!(M.transpose() * v, M.transpose_mul(v));
+        assert_eq!(M.column(1), vec3(2.0, 5.0, -8.0));
+        assert_eq!(Mat3::from_columns(M.column(0), M.column(1), M.column(2)), M);
+        assert_eq!((M * M) * v, M * (M * v));
+        assert_eq!(M + M - M.scaled(3.0), M.scaled(-1.0));
+    }
+
+    #[test]
+    fn a_congruence_is_the_product_of_three() {
+        let (M, S) = (general(), definite());
+        assert_eq!(M.congruence(S).to_mat3(), M * S.to_mat3() * M.transpose());
+    }
+
+    #[test]
+    fn a_symmetric_matrix_multiplies_like_the_full_one() {
+        let (S, v) = (definite(), vec3(1.0, -2.0, 0.5));
+        assert_eq!(S * v, S.to_mat3() * v);
+        assert_eq!(Sym3::symmetric_part(&S.to_mat3()), S);
+        let halves = general() + general().transpose();
+        assert_eq!(Sym3::symmetric_part(&general()).to_mat3(), halves.scaled(0.5));
+    }
+
+    /// Round-off of one elimination. Measured 3e-16.
+    #[test]
+    fn the_solution_satisfies_the_equations() {
+        let b = vec3(1.0, -2.0, 0.5);
+        let rest = definite() * definite().solve(b) - b;
+        assert!(rest.norm() < 1e-15, "{rest:?}");
+    }
+
+    /// `m [p]ᵀ[p]`, and by hand for a mass on an axis.
+    #[test]
+    fn a_point_mass_has_the_inertia_of_its_lever() {
+        let (m, p) = (2.0, vec3(1.0, -3.0, 0.5));
+        let cross = p.skew().transpose() * p.skew();
+        assert_eq!(Sym3::of_point(m, p).to_mat3(), cross.scaled(m));
+        assert_eq!(Sym3::of_point(2.0, vec3(0.0, 3.0, 0.0)), Sym3::diagonal(18.0, 0.0, 18.0));
+    }
+
+    #[test]
+    fn only_a_rotation_is_orthogonal() {
+        let quarter =
+            Mat3::from_rows(vec3(0.0, -1.0, 0.0), vec3(1.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0));
+        assert_eq!(quarter.orthogonality_error(), 0.0);
+        assert_eq!(quarter.scaled(2.0).orthogonality_error(), 3.0);
+    }
+}

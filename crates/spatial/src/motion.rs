@@ -165,3 +165,64 @@ six_vector!(SpatialForce, torque, force);
 #[cfg(doctest)]
 #[derive(Debug)]
 pub struct KindsDoNotMix;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vec3;
+
+    fn twist() -> SpatialVelocity<f64> {
+        SpatialVelocity::from_array([0.5, -1.0, 2.0, 3.0, 0.25, -1.5])
+    }
+
+    fn wrench() -> SpatialForce<f64> {
+        SpatialForce::from_array([2.0, 1.0, -0.5, 4.0, -3.0, 1.5])
+    }
+
+    #[test]
+    fn a_point_on_a_turning_body_moves_across_its_lever() {
+        let about_z = SpatialVelocity::new(vec3(0.0, 0.0, 2.0), Vec3::zero());
+        assert_eq!(about_z.shifted_by(vec3(3.0, 0.0, 0.0)).linear, vec3(0.0, 6.0, 0.0));
+    }
+
+    #[test]
+    fn a_force_has_a_moment_about_a_point_beside_it() {
+        let up_at_x = SpatialForce::new(Vec3::zero(), vec3(0.0, 0.0, 5.0));
+        // Seen from a point 2 m along x, the force acts 2 m behind.
+        assert_eq!(up_at_x.about(vec3(2.0, 0.0, 0.0)).torque, vec3(0.0, 10.0, 0.0));
+    }
+
+    #[test]
+    fn power_does_not_depend_on_the_point() {
+        let p = vec3(0.5, -2.0, 4.0);
+        assert_eq!(twist().shifted_by(p).power(&wrench().about(p)), twist().power(&wrench()));
+    }
+
+    /// `(V × W)·F = -W·(V ×* F)`: the two cross products are each other's dual.
+    #[test]
+    fn the_power_of_a_carried_pair_is_constant() {
+        let (V, W, F) =
+            (twist(), SpatialVelocity::from_array([1.0, 2.0, -4.0, 0.5, 8.0, 3.0]), wrench());
+        assert_eq!(V.cross(&W).power(&F), -W.power(&V.cross_force(&F)));
+    }
+
+    #[test]
+    fn the_cross_product_by_hand() {
+        let V = SpatialVelocity::new(vec3(0.0, 0.0, 1.0), vec3(1.0, 0.0, 0.0));
+        let W = SpatialVelocity::new(vec3(1.0, 0.0, 0.0), vec3(0.0, 0.0, 2.0));
+        // [z×x; z×2z + x×x] = [y; 0]
+        assert_eq!(V.cross(&W).to_array(), [0.0, 1.0, 0.0, 0.0, 0.0, 0.0]);
+        let F = SpatialForce::new(vec3(0.0, 1.0, 0.0), vec3(0.0, 3.0, 0.0));
+        // [z×y + x×3y; z×3y] = [-x + 3z; -3x]
+        assert_eq!(V.cross_force(&F).to_array(), [-1.0, 0.0, 3.0, -3.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn arrays_keep_the_angular_part_first() {
+        let V = twist();
+        assert_eq!(V.to_array()[..3], V.angular.to_array());
+        assert_eq!(SpatialVelocity::from_array(V.to_array()), V);
+        assert_eq!(SpatialForce::from_array(wrench().to_array()), wrench());
+        assert_eq!(wrench().to_array()[..3], wrench().torque.to_array());
+    }
+}

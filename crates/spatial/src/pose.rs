@@ -96,3 +96,81 @@ impl<T: Real> Mul for Pose<T> {
         Self::new(self.rotation * X_BC.rotation, self.point(X_BC.translation))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Sym3, vec3};
+
+    fn X_PB() -> Pose<f64> {
+        Pose::from_quat(Quat::exp(vec3(0.4, -1.1, 0.7)), vec3(1.0, -2.0, 0.5))
+    }
+
+    fn X_BC() -> Pose<f64> {
+        Pose::from_quat(Quat::exp(vec3(-0.9, 0.2, 1.3)), vec3(-0.3, 0.8, 2.0))
+    }
+
+    fn twist() -> SpatialVelocity<f64> {
+        SpatialVelocity::from_array([0.5, -1.0, 2.0, 3.0, 0.25, -1.5])
+    }
+
+    fn wrench() -> SpatialForce<f64> {
+        SpatialForce::from_array([2.0, 1.0, -0.5, 4.0, -3.0, 1.5])
+    }
+
+    #[track_caller]
+    fn close(a: &[f64], b: &[f64], tolerance: f64) {
+        let worst = a.iter().zip(b).fold(0.0, |m: f64, (x, y)| m.max((x - y).abs()));
+        assert!(worst <= tolerance, "off by {worst:e}: {a:?} {b:?}");
+    }
+
+    /// Round-off of two rotations. Measured 4e-16.
+    #[test]
+    fn a_pose_and_its_inverse_undo_each_other() {
+        let X = X_PB() * X_PB().inverse();
+        close(&X.translation.to_array(), &[0.0; 3], 1e-15);
+        assert!((X.rotation - Mat3::identity()).rows.iter().all(|row| row.norm() < 1e-15));
+    }
+
+    /// Measured 2e-15.
+    #[test]
+    fn what_passes_two_poses_passes_their_product() {
+        let (X_PC, p) = (X_PB() * X_BC(), vec3(0.3, 0.6, -0.9));
+        let twice = X_BC().velocity_to_child(&X_PB().velocity_to_child(&twist()));
+        close(&X_PC.velocity_to_child(&twist()).to_array(), &twice.to_array(), 1e-14);
+        let twice = X_PB().force_to_parent(&X_BC().force_to_parent(&wrench()));
+        close(&X_PC.force_to_parent(&wrench()).to_array(), &twice.to_array(), 1e-14);
+        let twice = X_PB().point(X_BC().point(p));
+        close(&X_PC.point(p).to_array(), &twice.to_array(), 1e-14);
+    }
+
+    /// Measured 9e-16.
+    #[test]
+    fn power_is_the_same_on_either_side_of_a_joint() {
+        let in_child = X_PB().velocity_to_child(&twist()).power(&wrench());
+        let in_parent = twist().power(&X_PB().force_to_parent(&wrench()));
+        close(&[in_child], &[in_parent], 1e-14);
+    }
+
+    /// Measured 2e-15.
+    #[test]
+    fn a_force_goes_to_the_child_and_back() {
+        let back = X_PB().force_to_parent(&X_PB().force_to_child(&wrench()));
+        close(&back.to_array(), &wrench().to_array(), 1e-14);
+    }
+
+    /// Momentum and inertia take the same way: `X* (M V) = (X* M X⁻¹) X V`. Measured 3e-14
+    /// on momenta of 150.
+    #[test]
+    fn inertia_seen_from_the_parent_gives_the_same_momentum() {
+        let I = Sym3 { xx: 3.0, xy: 0.2, xz: -0.1, yy: 4.0, yz: 0.3, zz: 5.0 };
+        let M_B = SpatialInertia::from_central(7.0, vec3(0.3, -0.5, 0.2), I);
+        let h = X_PB().force_to_parent(&(M_B * X_PB().velocity_to_child(&twist())));
+        let rigid = X_PB().inertia_to_parent(&M_B) * twist();
+        close(&rigid.to_array(), &h.to_array(), 1e-13);
+        let M_A = ArticulatedInertia::from_rigid(&M_B).without(&wrench(), 0.01);
+        let h = X_PB().force_to_parent(&(M_A * X_PB().velocity_to_child(&twist())));
+        let moved = X_PB().articulated_to_parent(&M_A) * twist();
+        close(&moved.to_array(), &h.to_array(), 1e-13);
+    }
+}

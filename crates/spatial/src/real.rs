@@ -146,3 +146,39 @@ macro_rules! float {
 }
 float!(f64, libm::sqrt, libm::sincos, libm::atan2, libm::acos);
 float!(f32, libm::sqrtf, libm::sincosf, libm::atan2f, libm::acosf);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn chosen<T: Scalar>() {
+        let t = T::from_f64;
+        assert_eq!((t(-2.5).abs(), t(2.5).abs()), (t(2.5), t(2.5)));
+        assert_eq!((t(1.0).max(t(2.0)), t(1.0).min(t(2.0))), (t(2.0), t(1.0)));
+        assert_eq!((t(2.0).max(t(1.0)), t(2.0).min(t(1.0))), (t(2.0), t(1.0)));
+        let held = [-9.0, -0.5, 0.5, 9.0].map(|x| t(x).clamp_to(T::one()));
+        assert_eq!(held, [-1.0, -0.5, 0.5, 1.0].map(t));
+        assert!(T::one() + T::epsilon() > T::one());
+        assert_eq!(T::one() + T::epsilon() * t(0.5), T::one());
+        assert!(!(T::one() / T::zero()).is_finite() && T::one().is_finite());
+    }
+
+    #[test]
+    fn both_floats_choose_alike() {
+        chosen::<f64>();
+        chosen::<f32>();
+    }
+
+    /// libm against the host's own functions: within two units in the last place of 1.
+    #[test]
+    fn elementary_functions_are_those_of_the_textbook() {
+        for k in -40..=40 {
+            let x = 0.3 * f64::from(k);
+            let (s, c) = Real::sin_cos(x);
+            assert!((s - f64::sin(x)).abs() < 3e-16 && (c - f64::cos(x)).abs() < 3e-16);
+            assert!((Scalar::atan2(s, c) - f64::atan2(s, c)).abs() < 1e-15);
+            assert!((Scalar::acos(c) - f64::acos(c)).abs() < 1e-15);
+            assert!((Real::sqrt(x * x) - x.abs()).abs() < 1e-14);
+        }
+    }
+}

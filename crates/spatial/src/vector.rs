@@ -119,3 +119,32 @@ impl<T: Real> SubAssign for Vec3<T> {
         *self = *self - b;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn products_follow_the_right_hand() {
+        let (x, y, z) = (vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0));
+        assert_eq!((x.cross(y), y.cross(z), z.cross(x)), (z, x, y));
+        assert_eq!(vec3(1.0, 2.0, 3.0).dot(vec3(4.0, -5.0, 6.0)), 12.0);
+        assert_eq!(vec3(2.0, -3.0, 6.0).norm(), 7.0);
+    }
+
+    #[test]
+    fn the_cross_matrix_and_the_dyad_multiply_like_their_products() {
+        let (a, b, c) = (vec3(1.0, 2.0, 3.0), vec3(-4.0, 5.0, 6.0), vec3(0.5, -7.0, 2.0));
+        assert_eq!(a.skew() * b, a.cross(b));
+        assert_eq!(a.outer(b) * c, a * b.dot(c));
+    }
+
+    #[test]
+    fn assignments_add_and_take_away() {
+        let (mut a, b) = (vec3(1.0, 2.0, 3.0), vec3(0.5, -1.0, 4.0));
+        a += b;
+        assert_eq!(a, vec3(1.5, 1.0, 7.0));
+        a -= b;
+        assert_eq!((a, -a), (vec3(1.0, 2.0, 3.0), vec3(-1.0, -2.0, -3.0)));
+    }
+}
