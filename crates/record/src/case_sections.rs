@@ -2,7 +2,7 @@
 
 use wrasse_mission::{CaseOutcome, Ledger, Metric, Verdict};
 
-use crate::comparison::{quantity, reason};
+use crate::comparison::{judged, reason};
 use crate::drawing::drawing;
 use crate::ledger_rests::ledger_rests;
 use crate::markup::{dotted, escaped, figure, table, verdict_mark, words};
@@ -67,7 +67,7 @@ fn verdicts(case: &CaseOutcome) -> String {
 fn verdict_row(verdict: &Verdict) -> Vec<String> {
     let value = verdict.value.map_or("none".to_owned(), |v| beside_limit(v, verdict.limit));
     vec![
-        format!("<td>{}</td>", dotted(quantity(&verdict.requirement, &verdict.comparison))),
+        format!("<td>{}</td>", dotted(&judged(&verdict.requirement, &verdict.comparison))),
         figure(&format!("{} {}", verdict.comparison, significant(verdict.limit))),
         figure(&value),
         words(&verdict.unit),

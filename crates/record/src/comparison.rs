@@ -8,7 +8,7 @@ use crate::numbers::significant;
 const TELLING: [&str; 5] = [
     "tool.along_track_error.final",
     "tool.lateral_error.final",
-    "tool.rotation_error.final",
+    "tool.attitude_error.final",
     "base.rotation.final",
     "base.translation.final",
 ];
@@ -134,6 +134,15 @@ pub(crate) fn quantity<'a>(requirement: &'a str, comparison: &str) -> &'a str {
     match requirement.split_once(comparison) {
         Some((quantity, _)) if !comparison.is_empty() => quantity.trim(),
         _ => requirement.trim(),
+    }
+}
+
+/// What a requirement judges, without its limit: its quantity, and the phase if it names one.
+pub(crate) fn judged(requirement: &str, comparison: &str) -> String {
+    let quantity = quantity(requirement, comparison);
+    match requirement.split_once(" during ") {
+        Some((_, phase)) if !quantity.contains(" during ") => format!("{quantity} during {phase}"),
+        _ => quantity.to_owned(),
     }
 }
 

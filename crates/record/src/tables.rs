@@ -2,7 +2,7 @@
 
 use wrasse_mission::{CaseOutcome, Ledger, Outcome, Verdict};
 
-use crate::comparison::{Comparison, case_name, comparison, quantity, reason};
+use crate::comparison::{Comparison, case_name, comparison, judged, reason};
 use crate::ledger_rests::{Rest, ledger_rests};
 use crate::numbers::{beside_limit, power, significant};
 
@@ -38,7 +38,7 @@ fn verdicts(verdicts: &[Verdict]) -> String {
     let mut rows = vec![["requirement", "limit", "value", "unit", "verdict"].map(String::from)];
     for verdict in verdicts {
         rows.push([
-            quantity(&verdict.requirement, &verdict.comparison).to_owned(),
+            judged(&verdict.requirement, &verdict.comparison),
             format!("{} {}", verdict.comparison, significant(verdict.limit)),
             verdict.value.map_or("none".to_owned(), |value| beside_limit(value, verdict.limit)),
             verdict.unit.clone(),

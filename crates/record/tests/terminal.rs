@@ -7,11 +7,12 @@ use wrasse_record::verdict_table;
 #[test]
 fn a_single_case_shows_its_verdicts_and_a_line_each_for_momentum_and_energy() {
     let expected = "
-requirement               limit    value  unit   verdict
-tool.position_error.max  <= 0.3  0.01234  mm     pass
-base.attitude_error.max  <= 0.5   0.0831  deg    pass
-joint.rate.max             <= 5    4.327  deg/s  pass
-actuator.momentum.max     <= 25    23.45  N·m·s  pass
+requirement                              limit    value  unit   verdict
+tool.position_error.max                 <= 0.3  0.01234  mm     pass
+base.attitude_error.max                 <= 0.5   0.0831  deg    pass
+joint.rate.max                            <= 5    4.327  deg/s  pass
+actuator.momentum.max                    <= 25    23.45  N·m·s  pass
+tool.position_error.final during hold  <= 0.02   0.0017  mm     pass
 
 momentum  ledger closes: angular 3.1e-14 of 48.2 N·m·s unexplained (6.4e-16, bound 1.0e-12); linear 1.2e-14 of 14.6 N·s unexplained (8.2e-16, bound 1.0e-12)
 energy    ledger closes: 2.4e-12 of 0.391 J unexplained (6.1e-12, bound 1.0e-8); joints 0.0123 J, actuator -0.0123 J, outside 0 J, grasps 0 J

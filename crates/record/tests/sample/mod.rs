@@ -130,12 +130,15 @@ fn case(labels: Vec<(String, String)>, miss: f64, samples: usize) -> CaseOutcome
         unit: unit.into(),
         pass: value <= limit,
     };
-    let verdicts = vec![
+    let mut verdicts = vec![
         verdict("tool.position_error.max", 0.3, 0.012_34 + 1e3 * miss.abs(), "mm"),
         verdict("base.attitude_error.max", 0.5, 0.083_1, "deg"),
         verdict("joint.rate.max", 5.0, 4.327, "deg/s"),
         verdict("actuator.momentum.max", 25.0, 23.45, "N·m·s"),
     ];
+    let mut settled = verdict("tool.position_error.final", 0.02, 0.001_7, "mm");
+    settled.requirement += " during hold";
+    verdicts.push(settled);
     let metric =
         |name: &str, value: f64, unit: &str| Metric { name: name.into(), value, unit: unit.into() };
     CaseOutcome {
