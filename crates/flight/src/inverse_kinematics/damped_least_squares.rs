@@ -74,10 +74,8 @@ struct Problem<'a, T, const J: usize> {
 
 /// The damping `λ²` is this part of the squared error, at the start and at least.
 const DAMPING: (f64, f64) = (1e-2, 1e-12);
-/// After this many steps that gain less than a thousandth each, a solve has stalled.
+/// After this many steps in a row that gain less than two thousandths each, a solve has stalled.
 const SLOW_STEPS: u32 = 12;
-/// Damping that is this many times the squared error and still gives no better step: stalled.
-const LARGEST_DAMPING: f64 = 1e8;
 
 /// Joint positions that bring `tool` to `X_NE`, from the positions and the base pose of `state`
 /// (its velocities do not matter). Each joint stays within its travel; joints off the way to the
@@ -120,7 +118,7 @@ pub fn damped_least_squares<T: Scalar, const J: usize>(
         {
             return DampedOutcome::Converged(attempt);
         }
-        if slow >= SLOW_STEPS || damping > T::from_f64(LARGEST_DAMPING) {
+        if slow >= SLOW_STEPS {
             return problem.stalled(attempt, &columns, &error);
         }
         if iterations >= settings.iterations {
@@ -130,9 +128,9 @@ pub fn damped_least_squares<T: Scalar, const J: usize>(
         let next = problem.step(&q, &columns, &error, damping * square);
         let (next_error, next_columns) = problem.error_and_jacobian(&next);
         let next_square = squared(&next_error);
+        let gains = square - next_square > square * T::from_f64(2e-3);
+        slow = if gains { 0 } else { slow + 1 };
         if next_square < square {
-            let little = square - next_square < square * T::from_f64(2e-3);
-            slow = if little { slow + 1 } else { 0 };
             (q, error, columns) = (next, next_error, next_columns);
             damping = (damping * T::from_f64(0.1)).max(T::from_f64(DAMPING.1));
         } else {

@@ -26,7 +26,9 @@ impl Side {
 
 /// Rotation about a unit axis (–) by an angle (rad).
 pub(super) fn about<T: Scalar>(axis: Vec3<T>, angle: T) -> Mat3<T> {
-    Quat::exp(axis * angle).to_matrix()
+    let (sine, cosine) = (angle * T::from_f64(0.5)).sin_cos();
+    let v = axis * sine;
+    Quat::new(cosine, v.x, v.y, v.z).to_matrix()
 }
 
 /// Three joints whose axes meet, in their zero posture: first ⟂ second ⟂ third.

@@ -6,8 +6,8 @@ use wrasse_spatial::Real;
 pub(super) fn cube_root<T: Real>(x: T) -> T {
     // 1/3 = 1/4 + 1/16 + 1/64 + …: each factor is the fourth root of the one before. Seven of them
     // leave a relative error of x^(1/49152) - 1, below 2 % for any x; Newton then squares it.
-    let tiny = x.lt(T::from_f64(1e-37));
-    let x_safe = T::select(tiny, T::one(), x);
+    let positive = T::zero().lt(x);
+    let x_safe = T::select(positive, x, T::one());
     let (mut factor, mut root) = (x_safe, T::one());
     for _ in 0..7 {
         factor = factor.sqrt().sqrt();
@@ -17,7 +17,7 @@ pub(super) fn cube_root<T: Real>(x: T) -> T {
     for _ in 0..4 {
         root = (root + root + x_safe / (root * root)) * third;
     }
-    T::select(tiny, T::zero(), root)
+    T::select(positive, root, T::zero())
 }
 
 #[cfg(test)]
@@ -34,6 +34,16 @@ mod tests {
         }
         assert!(worst < 2e-15, "measured 8.9e-16: {worst:e}");
         assert_eq!(cube_root(0.0), 0.0);
+    }
+
+    #[test]
+    fn the_smallest_and_the_largest_numbers_have_roots() {
+        for x in [f64::MIN_POSITIVE, f64::MAX] {
+            let r = cube_root(x);
+            assert!((r * r * (r / x) - 1.0).abs() < 2e-15, "{x:e}: {r:e}");
+        }
+        let r = cube_root(f32::MIN_POSITIVE);
+        assert!((r / f32::MIN_POSITIVE * r * r - 1.0).abs() < 1e-6, "{r:e}");
     }
 
     fn power_of_ten(k: i32) -> f64 {

@@ -62,6 +62,8 @@ pub enum Quantity {
     Start,
     /// Position, velocity or acceleration at the end: their sum is shown.
     End,
+    /// Coefficients of a polynomial: their sum is shown (m, rad or –).
+    Coefficients,
     /// Way from the first to the last position (m, rad).
     Way,
     /// Relative rotation of two poses: the sum of its matrix is shown (–).
@@ -133,6 +135,7 @@ impl fmt::Display for BadNumber {
             Quantity::JerkLimit => "jerk limit",
             Quantity::Start => "motion at the start (sum of its numbers)",
             Quantity::End => "motion at the end (sum of its numbers)",
+            Quantity::Coefficients => "coefficients of the polynomial (their sum)",
             Quantity::Way => "way from start to end",
             Quantity::Rotation => "relative rotation (sum of its matrix)",
         };

@@ -92,7 +92,8 @@ impl<T: Scalar> QuinticBlend<T> {
     /// From `start` to `end` in `duration` (s).
     ///
     /// # Errors
-    /// If the duration is not positive and finite, or a boundary value is not finite.
+    /// If the duration is not positive and finite, a boundary value is not finite, or all together
+    /// overflow.
     pub fn between(start: Motion<T>, end: Motion<T>, duration: T) -> Result<Self, BadNumbers> {
         let finite = |quantity, m: &Motion<T>| {
             let sum = m.position + m.velocity + m.acceleration;
@@ -103,7 +104,10 @@ impl<T: Scalar> QuinticBlend<T> {
             finite(Quantity::End, &end),
             BadNumber::unless_positive(Quantity::Duration, duration),
         ])?;
-        Ok(Self::joining(start, end, duration))
+        let blend = Self::joining(start, end, duration);
+        let [k3, k4, k5] = blend.high;
+        BadNumbers::none_of([BadNumber::unless_finite(Quantity::Coefficients, k3 + k4 + k5)])?;
+        Ok(blend)
     }
 }
 

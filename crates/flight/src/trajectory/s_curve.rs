@@ -33,7 +33,9 @@ impl<T: Scalar> SCurve<T> {
         BadNumbers::none_of([bad_length, speed, acceleration, jerk])?;
         let (jerk_time, steady_time, cruise_time) = segments(length, limits);
         let curve = Self { length, jerk: limits.jerk, jerk_time, steady_time, cruise_time };
-        BadNumbers::none_of([BadNumber::unless_length(Quantity::Duration, curve.duration())])?;
+        // Limits far apart can overflow or underflow it.
+        let bad_duration = BadNumber::unless_positive(Quantity::Duration, curve.duration());
+        BadNumbers::none_of([bad_duration.filter(|_| length > T::zero())])?;
         Ok(curve)
     }
 }
