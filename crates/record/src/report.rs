@@ -136,12 +136,11 @@ fn comparison_section(outcome: &Outcome, shown: usize) -> String {
     }
     let compared = comparison(outcome);
     let mut head: Vec<String> = compared.axes.iter().map(|axis| escaped(axis)).collect();
-    head.push("Outcome".to_owned());
+    head.extend(["Outcome".to_owned(), "Verdict".to_owned()]);
     for column in &compared.columns {
         let name = dotted(column.name);
         head.push(format!("{name} <small>{}</small>", escaped(column.unit)));
     }
-    head.push("Verdict".to_owned());
     let largest = compared.largest();
     let rows: Vec<_> = compared
         .rows
@@ -155,8 +154,8 @@ fn comparison_section(outcome: &Outcome, shown: usize) -> String {
             } else {
                 format!("<td>{ending}</td>")
             });
-            cells.extend(row.values.iter().zip(&largest).map(|(v, most)| size_cell(*v, *most)));
             cells.push(format!("<td>{}</td>", verdict_mark(row.passed)));
+            cells.extend(row.values.iter().zip(&largest).map(|(v, most)| size_cell(*v, *most)));
             cells
         })
         .collect();

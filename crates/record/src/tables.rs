@@ -83,31 +83,28 @@ fn comparison_rows(table: &Comparison<'_>) -> String {
     let depth = parts.iter().map(Vec::len).max().unwrap_or(0);
     let mut rows: Vec<Vec<String>> = (0..depth)
         .map(|line| {
-            let mut cells = vec![""; table.axes.len() + 1];
+            let mut cells = vec![""; table.axes.len() + 2];
             for parts in &parts {
                 // Names end on the same line, above the units.
                 let part = (line + parts.len()).checked_sub(depth).map(|k| parts[k]);
                 cells.push(part.unwrap_or_default());
             }
-            cells.push("");
             cells.into_iter().map(String::from).collect()
         })
         .collect();
     let mut last = table.axes.clone();
-    last.push("outcome");
+    last.extend(["outcome", "verdict"]);
     last.extend(table.columns.iter().map(|column| column.unit));
-    last.push("verdict");
     rows.push(last.into_iter().map(String::from).collect());
     for row in &table.rows {
         let mut cells: Vec<String> = row.labels.iter().map(ToString::to_string).collect();
         cells.push(row.ending.clone());
-        cells.extend(row.values.iter().map(|v| v.map_or("-".to_owned(), significant)));
         cells.push(if row.passed { "pass" } else { "FAIL" }.to_owned());
+        cells.extend(row.values.iter().map(|v| v.map_or("-".to_owned(), significant)));
         rows.push(cells);
     }
-    let mut sides = vec![Side::Left; table.axes.len() + 1];
+    let mut sides = vec![Side::Left; table.axes.len() + 2];
     sides.extend(vec![Side::Right; table.columns.len()]);
-    sides.push(Side::Left);
     aligned(&rows, &sides)
 }
 

@@ -23,19 +23,19 @@ energy    ledger closes: 2.4e-12 of 0.391 J unexplained (6.1e-12, bound 1.0e-8);
 #[test]
 fn compared_cases_share_one_table_with_a_row_for_each() {
     let expected = "
-                                                            tool           tool      base            tool
-                                               along_track_error  lateral_error  rotation  position_error
-                                                           final          final     final             max
-law            load     outcome                               mm             mm       deg              mm  verdict
-terrestrial    unladen  completed                        -15.598         4.6817    0.0831          15.612  FAIL
-terrestrial    200 kg   completed                        -70.198         21.062    0.0831          70.212  FAIL
-terrestrial    500 kg   completed                         -124.8         37.442    0.0831          124.81  FAIL
-attitude-held  unladen  completed                         0.0021         0.0017    0.0831         0.01234  pass
-attitude-held  200 kg   completed                         0.0021         0.0017    0.0831         0.01234  pass
-attitude-held  500 kg   completed                         0.0021         0.0017    0.0831         0.01234  pass
-free-floating  unladen  completed                         0.0021         0.0017    0.0831         0.01234  pass
-free-floating  200 kg   completed                         0.0021         0.0017    0.0831         0.01234  pass
-free-floating  500 kg   infeasible at 13.28 s                  -              -         -               -  FAIL
+                                                                     tool           tool      base            tool
+                                                        along_track_error  lateral_error  rotation  position_error
+                                                                    final          final     final             max
+law            load     outcome                verdict                 mm             mm       deg              mm
+terrestrial    unladen  completed              FAIL               -15.598         4.6817    0.0831          15.612
+terrestrial    200 kg   completed              FAIL               -70.198         21.062    0.0831          70.212
+terrestrial    500 kg   completed              FAIL                -124.8         37.442    0.0831          124.81
+attitude-held  unladen  completed              pass                0.0021         0.0017    0.0831         0.01234
+attitude-held  200 kg   completed              pass                0.0021         0.0017    0.0831         0.01234
+attitude-held  500 kg   completed              pass                0.0021         0.0017    0.0831         0.01234
+free-floating  unladen  completed              pass                0.0021         0.0017    0.0831         0.01234
+free-floating  200 kg   completed              pass                0.0021         0.0017    0.0831         0.01234
+free-floating  500 kg   infeasible at 13.28 s  FAIL                     -              -         -               -
 
 5 of 9 cases pass
 law=terrestrial, load=unladen: tool.position_error.max <= 0.3 mm fails with 15.612 mm
