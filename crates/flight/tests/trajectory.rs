@@ -322,6 +322,9 @@ fn a_profile_without_length_is_refused_where_the_ends_differ() {
     assert_eq!(complaints.iter().next().unwrap().expected, Expected::PositiveSinceTheEndsDiffer);
     assert!(StraightLine::new(Pose::identity(), pose([0.0; 3], [1.0, 0.0, 0.0]), still).is_err());
     assert!(JointMove::new([1.0], [1.0], still).is_ok());
+    // The relative rotation of a pose to itself is the identity to rounding only.
+    let here = pose([0.3, -0.8, 1.1], [1.0, 0.0, 0.0]);
+    assert!(StraightLine::new(here, here, still).is_ok());
 }
 
 #[test]

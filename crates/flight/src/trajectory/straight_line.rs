@@ -33,8 +33,7 @@ impl<T: Scalar> StraightLine<T> {
     /// If a pose is not finite, or the profile has no length although the poses differ.
     pub fn new(X_NE0: Pose<T>, X_NE1: Pose<T>, profile: Profile<T>) -> Result<Self, BadNumbers> {
         let (displacement_N, turn_E0) = between(&X_NE0, &X_NE1)?;
-        let way = displacement_N.norm() + turn_E0.norm();
-        let stuck = way > T::zero() && profile.length() <= T::zero();
+        let stuck = X_NE0 != X_NE1 && profile.length() <= T::zero();
         let expected = Expected::PositiveSinceTheEndsDiffer;
         BadNumbers::none_of([BadNumber::unless(
             !stuck,
