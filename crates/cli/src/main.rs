@@ -1,2 +1,59 @@
-//! The binary `wrasse`.
-fn main() {}
+//! The binary `wrasse`: rehearses servicing missions of free-flying robots.
+//!
+//! Exit codes: 0 all requirements hold; 1 the answer is no; 2 bad input or breakdown.
+
+#![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
+
+mod check;
+mod eval;
+mod eval_answer;
+mod input;
+mod progress;
+mod run;
+mod schema;
+mod vehicles;
+
+use clap::{Parser, Subcommand};
+use std::process::ExitCode;
+
+/// Rehearse on-orbit servicing: free-flying spacecraft with arms.
+///
+/// Start with `wrasse run missions/atlas-reach.toml`, then open out/atlas-reach/report.html.
+#[derive(Debug, Parser)]
+#[command(version, max_term_width = 100)]
+struct Wrasse {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Run(run::Run),
+    Check(check::Check),
+    Vehicles(vehicles::Vehicles),
+    Eval(eval::Eval),
+    Schema(schema::Schema),
+}
+
+fn main() -> ExitCode {
+    match Wrasse::parse().command {
+        Command::Run(run) => run.go(),
+        Command::Check(check) => check.go(),
+        Command::Vehicles(vehicles) => vehicles.go(),
+        Command::Eval(eval) => eval.go(),
+        Command::Schema(schema) => schema.go(),
+    }
+}
+
+/// All requirements hold.
+pub(crate) const YES: ExitCode = ExitCode::SUCCESS;
+
+/// The answer is no: a requirement failed, a way cannot be gone.
+pub(crate) fn no() -> ExitCode {
+    ExitCode::from(1)
+}
+
+/// Bad input, or a breakdown.
+pub(crate) fn bad() -> ExitCode {
+    ExitCode::from(2)
+}

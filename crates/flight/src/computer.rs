@@ -72,11 +72,15 @@ pub struct FlightComputer<T, const J: usize> {
     /// Periods since the path began, and of the path.
     elapsed: u32,
     length: u32,
+    /// Whether the sensors were read once, and the first phase has begun.
     started: bool,
+    begun: bool,
     belief: Belief<T, J>,
     /// Set-points and motion at the start of the coming period.
     now: [SetPoint<T>; J],
     motion: ResolvedMotion<T, J>,
+    /// Accelerations one period before: with those of now they tell the jerk.
+    before: ([T; J], SpatialVelocity<T>),
     reference: ToolMotion<T>,
     axes: Axes,
 }
@@ -107,6 +111,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
             elapsed: 0,
             length: 0,
             started: false,
+            begun: false,
             belief: Belief {
                 X_NB: Pose::identity(),
                 q: [T::zero(); J],
@@ -118,6 +123,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
                 qddot: [T::zero(); J],
                 A_NB_B: SpatialVelocity::zero(),
             },
+            before: ([T::zero(); J], SpatialVelocity::zero()),
             reference: ToolMotion {
                 X_NE: Pose::identity(),
                 V_NE_N: SpatialVelocity::zero(),
@@ -185,7 +191,8 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
 
     /// Begin the next phase; what it tells the grip.
     fn begin_next(&mut self) -> Result<Option<crate::Grip>, BadPhase<T>> {
-        let next = if self.length == 0 && self.elapsed == 0 { 0 } else { self.phase + 1 };
+        let next = if self.begun { self.phase + 1 } else { 0 };
+        self.begun = true;
         self.phase = next;
         self.elapsed = 0;
         let Some(phase) = self.phases.get(next).copied().flatten() else {
@@ -238,18 +245,23 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         })
     }
 
-    /// Where the vehicle is believed to be one period on, from its motion now.
+    /// Where the vehicle is believed to be one period on, from its motion now: rates, accelerations,
+    /// and the jerk that the last two accelerations tell. Each step is right to fourth order, so that
+    /// positions and rates of successive set-points fit each other.
     fn advance_belief(&mut self, period: T) {
-        let (rate, half) = (&self.motion.rate, T::from_f64(0.5) * period);
+        let (half, sixth) = (T::from_f64(0.5) * period, T::from_f64(1.0 / 6.0) * period);
+        let (rate, qddot, A) = (self.motion.rate, self.motion.qddot, self.motion.A_NB_B);
         for j in self.robot.joints() {
-            self.belief.q[j] += (rate.qdot[j] + self.motion.qddot[j] * half) * period;
+            let jerk_part = (qddot[j] - self.before.0[j]) * sixth;
+            self.belief.q[j] += (rate.qdot[j] + qddot[j] * half + jerk_part) * period;
         }
-        let V = rate.V_NB_B + self.motion.A_NB_B * half;
+        let V = rate.V_NB_B + A * half + (A - self.before.1) * sixth;
         let X = &self.belief.X_NB;
         let quat = turned_by(Quat::from_matrix(&X.rotation), V.angular * period);
         // The translation is in axes that turn: half the turn is felt on average.
         let halfway = X.rotation * Quat::exp(V.angular * half).to_matrix();
         self.belief.X_NB = Pose::from_quat(quat, X.translation + halfway * (V.linear * period));
+        self.before = (qddot, A);
     }
 
     /// Joint motion at time `t` (s) of the path.
@@ -413,7 +425,8 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
 
     /// Whether all phases are done.
     pub fn done(&self) -> bool {
-        self.elapsed >= self.length && self.phases.get(self.phase + 1).is_none_or(Option::is_none)
+        let last = self.phases.get(self.phase + 1).is_none_or(Option::is_none);
+        self.begun && self.elapsed >= self.length && last
     }
 }
 

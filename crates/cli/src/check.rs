@@ -1,0 +1,75 @@
+//! `wrasse check`: everything that is wrong with a file, and everything worth a second look.
+
+use crate::input::{complain, say, tell, text_of};
+use crate::{YES, bad};
+use clap::Args;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use wrasse_document::Complaint;
+use wrasse_mission::read_mission;
+use wrasse_vehicle::read_vehicle;
+
+/// Check vehicle and mission files: every complaint at once, with its place.
+///
+/// A TOML file with a `vehicle` key is a mission, any other a vehicle; .urdf and .xml are vehicles.
+/// Exit code 0: usable (warnings may be printed); 2: not usable.
+#[derive(Debug, Args)]
+pub(crate) struct Check {
+    /// The files.
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+}
+
+impl Check {
+    pub(crate) fn go(&self) -> ExitCode {
+        let mut all_usable = true;
+        for file in &self.files {
+            let text = match text_of(file) {
+                Ok(text) => text,
+                Err(sentence) => {
+                    tell(&format!("error: {sentence}"));
+                    all_usable = false;
+                    continue;
+                }
+            };
+            let (complaints, what) = findings(file, text);
+            if !complaints.is_empty() {
+                complain(&complaints);
+            }
+            match what {
+                Some(what) => say(&format!("{}: {what}", file.display())),
+                None => all_usable = false,
+            }
+        }
+        if all_usable { YES } else { bad() }
+    }
+}
+
+/// Complaints about a file, and what it is if it can be used.
+fn findings(file: &PathBuf, text: String) -> (Vec<Complaint>, Option<String>) {
+    if is_mission(file, &text) {
+        return match read_mission(file, text) {
+            Ok(mission) => (vec![], Some(format!("a mission of {} case(s)", mission.case_count()))),
+            Err(complaints) => (complaints, None),
+        };
+    }
+    match read_vehicle(file, text) {
+        Ok(vehicle) => {
+            let joints = vehicle.robot.joint_count();
+            let mass = vehicle.robot.mass();
+            let what = format!("vehicle {}, {joints} moving joints, {mass:.2} kg", vehicle.name);
+            (vehicle.remarks, Some(what))
+        }
+        Err(complaints) => (complaints, None),
+    }
+}
+
+/// A mission names its vehicle, at the top level of a TOML file.
+fn is_mission(file: &std::path::Path, text: &str) -> bool {
+    let toml = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+    let top = text.lines().map(str::trim_start).take_while(|line| !line.starts_with('['));
+    let names_vehicle = |line: &str| {
+        line.strip_prefix("vehicle").is_some_and(|rest| rest.trim_start().starts_with('='))
+    };
+    toml && (top.into_iter().any(names_vehicle) || text.contains("\n[[phase]]"))
+}

@@ -1,0 +1,214 @@
+//! `wrasse eval`: every quantity of the dynamics at given states, as JSON.
+
+use crate::eval_answer::answer;
+use crate::input::{complain, say, tell, text_of};
+use crate::{YES, bad};
+use clap::Args;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use wrasse_document::{Complaint, Source, closest};
+use wrasse_dynamics::{Generalized, State};
+use wrasse_spatial::{Pose, Quat, SpatialForce, SpatialVelocity, Vec3};
+use wrasse_vehicle::{JOINTS, NoVehicle, Vehicle, find_vehicle};
+
+/// Evaluate the dynamics of a vehicle at given states, for any other program.
+///
+/// The states are JSON: {"frame": NAME, "states": [STATE, …]}. The answer goes to standard output.
+/// The book's page "Evaluating from other programs" has the whole contract.
+#[derive(Debug, Args)]
+pub(crate) struct Eval {
+    /// A vehicle of the catalogue, or a vehicle file.
+    vehicle: String,
+    /// The states, as a JSON file.
+    #[arg(long, value_name = "FILE")]
+    states: PathBuf,
+}
+
+/// What `--states` holds.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct StatesFile {
+    frame: String,
+    states: Vec<StateFile>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct StateFile {
+    base: BaseFile,
+    base_velocity: TwistFile,
+    base_acceleration: TwistFile,
+    base_wrench: WrenchFile,
+    joints: BTreeMap<String, JointFile>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct BaseFile {
+    position: [f64; 3],
+    attitude: Option<AttitudeFile>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct AttitudeFile {
+    w: f64,
+    x: f64,
+    y: f64,
+    z: f64,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct TwistFile {
+    angular: [f64; 3],
+    linear: [f64; 3],
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct WrenchFile {
+    torque: [f64; 3],
+    force: [f64; 3],
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct JointFile {
+    position: f64,
+    velocity: f64,
+    acceleration: f64,
+    torque: f64,
+}
+
+/// One state, and what acts in it.
+#[derive(Debug, Clone)]
+pub(crate) struct Question {
+    pub(crate) state: State<f64, JOINTS>,
+    pub(crate) nudot: Generalized<SpatialVelocity<f64>, f64, JOINTS>,
+    pub(crate) force: Generalized<SpatialForce<f64>, f64, JOINTS>,
+}
+
+impl Eval {
+    pub(crate) fn go(&self) -> ExitCode {
+        let vehicle = match find_vehicle(&self.vehicle, Some(Path::new("."))) {
+            Ok(vehicle) => vehicle,
+            Err(NoVehicle::Faulty(complaints)) => {
+                complain(&complaints);
+                return bad();
+            }
+            Err(NoVehicle::NotFound { message, help }) => {
+                tell(&format!("error: {message}\nhelp: {help}"));
+                return bad();
+            }
+            Err(_) => return bad(),
+        };
+        let text = match text_of(&self.states) {
+            Ok(text) => text,
+            Err(sentence) => {
+                tell(&format!("error: {sentence}"));
+                return bad();
+            }
+        };
+        match questions(&self.states, text, &vehicle) {
+            Ok((frame, questions)) => {
+                say(&answer(&vehicle, &frame, &questions).to_string());
+                YES
+            }
+            Err(complaints) => {
+                complain(&complaints);
+                bad()
+            }
+        }
+    }
+}
+
+/// The frame and the states that a file asks about.
+fn questions(
+    path: &Path,
+    text: String,
+    vehicle: &Vehicle,
+) -> Result<(String, Vec<Question>), Vec<Complaint>> {
+    let source = Source::new(path, text);
+    let file: StatesFile = serde_json::from_str(&source.text).map_err(|error| {
+        let at = offset(&source.text, error.line(), error.column());
+        let message = error.to_string();
+        let message = message.split(" at line ").next().unwrap_or_default().to_owned();
+        vec![Complaint::error(&source, message).at(at..at + 1, "here")]
+    })?;
+    let mut complaints = vec![];
+    let mut unknown = |name: &str, what: &str, names: Vec<&str>| {
+        let at = source.text.find(&format!("\"{name}\"")).unwrap_or(0);
+        let message = format!("the vehicle has no {what} called {name:?}");
+        let complaint = Complaint::error(&source, message).at(at..at + name.len() + 2, "this name");
+        complaints.push(match closest(name, names.iter().copied()) {
+            Some(close) => complaint.with_help(format!("did you mean {close:?}?")),
+            None => complaint.with_help(format!("one of {}", names.join(", "))),
+        });
+    };
+    if vehicle.frame(&file.frame).is_none() {
+        let names = vehicle.frames.iter().map(|f| f.name.as_str()).collect();
+        unknown(&file.frame, "link", names);
+    }
+    let mut asked: Vec<&str> = vec![];
+    for name in file.states.iter().flat_map(|s| s.joints.keys()) {
+        if vehicle.joint(name).is_none() && !asked.contains(&name.as_str()) {
+            asked.push(name);
+            let names = vehicle.joint_names.iter().map(String::as_str).collect();
+            unknown(name, "moving joint", names);
+        }
+    }
+    let mut questions = vec![];
+    for (i, state) in file.states.iter().enumerate() {
+        match question(state, vehicle) {
+            Ok(question) => questions.push(question),
+            Err(why) => complaints.push(Complaint::error(&source, format!("state {i}: {why}"))),
+        }
+    }
+    if complaints.is_empty() { Ok((file.frame, questions)) } else { Err(complaints) }
+}
+
+/// Byte offset of a line and column, both from 1.
+fn offset(text: &str, line: usize, column: usize) -> usize {
+    let before: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
+    let mut at = (before + column.saturating_sub(1)).min(text.len().saturating_sub(1));
+    while !text.is_char_boundary(at) {
+        at -= 1;
+    }
+    at
+}
+
+fn question(file: &StateFile, vehicle: &Vehicle) -> Result<Question, String> {
+    let v3 = Vec3::from_array;
+    let mut quat_NB = Quat::identity();
+    if let Some(AttitudeFile { w, x, y, z }) = file.base.attitude {
+        quat_NB = Quat { w, x, y, z };
+        let norm = quat_NB.norm();
+        if (norm - 1.0).abs() > 1e-6 {
+            return Err(format!("an attitude is a unit quaternion, found one of length {norm}"));
+        }
+    }
+    let mut q = Question {
+        state: State {
+            X_NB: Pose::from_quat(quat_NB.normalized(), v3(file.base.position)),
+            V_NB_B: SpatialVelocity::new(
+                v3(file.base_velocity.angular),
+                v3(file.base_velocity.linear),
+            ),
+            ..State::default()
+        },
+        nudot: Generalized::default(),
+        force: Generalized::default(),
+    };
+    q.nudot.base =
+        SpatialVelocity::new(v3(file.base_acceleration.angular), v3(file.base_acceleration.linear));
+    q.force.base = SpatialForce::new(v3(file.base_wrench.torque), v3(file.base_wrench.force));
+    for (name, joint) in &file.joints {
+        let Some(j) = vehicle.joint(name) else { continue };
+        (q.state.q[j], q.state.v[j]) = (joint.position, joint.velocity);
+        (q.nudot.joints[j], q.force.joints[j]) = (joint.acceleration, joint.torque);
+    }
+    Ok(q)
+}

@@ -1,0 +1,77 @@
+//! `wrasse run`: a mission, from its file to its verdict.
+
+use crate::input::{complain, say, tell, text_of};
+use crate::progress::Bar;
+use crate::{YES, bad, no};
+use clap::Args;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use wrasse_mission::{End, Outcome, RunOptions, read_mission, run};
+use wrasse_record::{summary_json, verdict_table, write_results};
+
+/// Fly a mission, judge its requirements, write the report.
+///
+/// Writes report.html, telemetry.parquet and summary.json to out/NAME. Exit code 0: all requirements
+/// hold; 1: one does not, or the planning found that the way cannot be gone; 2: bad input, or a
+/// number broke down.
+#[derive(Debug, Args)]
+pub(crate) struct Run {
+    /// The mission file.
+    mission: PathBuf,
+    /// Folder for the results, in place of out/NAME.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print the summary as JSON in place of the table.
+    #[arg(long)]
+    json: bool,
+    /// Fly once more at half the step, and report what that changes.
+    #[arg(long)]
+    error_estimate: bool,
+}
+
+impl Run {
+    pub(crate) fn go(&self) -> ExitCode {
+        let text = match text_of(&self.mission) {
+            Ok(text) => text,
+            Err(sentence) => {
+                tell(&format!("error: {sentence}"));
+                return bad();
+            }
+        };
+        let mission = match read_mission(&self.mission, text) {
+            Ok(mission) => mission,
+            Err(complaints) => {
+                complain(&complaints);
+                return bad();
+            }
+        };
+        let bar = Bar::new(mission.case_count());
+        let options = RunOptions { error_estimate: self.error_estimate };
+        let outcome = run(&mission, options, &mut |progress| bar.show(progress));
+        bar.done();
+        self.hand_over(&outcome)
+    }
+
+    /// Write the results, print what was asked for, say how it went.
+    fn hand_over(&self, outcome: &Outcome) -> ExitCode {
+        let folder =
+            self.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&outcome.mission));
+        let written = match write_results(outcome, &folder) {
+            Ok(written) => written,
+            Err(error) => {
+                tell(&format!("error: the results cannot be written: {error}"));
+                return bad();
+            }
+        };
+        if self.json {
+            say(&summary_json(outcome).to_string());
+        } else {
+            say(&verdict_table(outcome));
+            say(&format!("report: {}", written.report.display()));
+        }
+        if outcome.cases.iter().any(|case| matches!(case.end, End::Breakdown { .. })) {
+            return bad();
+        }
+        if outcome.cases.iter().all(|case| case.passed) { YES } else { no() }
+    }
+}
