@@ -185,6 +185,40 @@ fn a_tip_wrench_is_held_by_the_generalized_jacobian_and_accelerates_the_base() {
     });
 }
 
+/// Pressed against a wall with `τ = J*ᵀ n f_d`, a free-flyer gives `η f_d`,
+/// `η = (J* H*⁻¹ J*ᵀ)_n / (J M⁻¹ Jᵀ)_n < 1`: what the wall moves more than the motors is the base,
+/// `B_n`. By forward dynamics. Measured 1e-15.
+#[test]
+fn a_free_flyer_presses_on_a_wall_with_less_than_its_joints_ask_for() {
+    for_every_robot(1e-13, |s| {
+        let state = State { v: [0.0; JOINTS], V_NB_B: SpatialVelocity::zero(), ..s.state };
+        let still = Scene { state, ..*s };
+        let posture = Posture::new(&still);
+        let normal = s.external.base.force * (1.0 / s.external.base.force.norm());
+        let n = SpatialForce::new(Vec3::zero(), normal);
+        let none = PerBody::filled(SpatialForce::zero());
+        let motors = posture.free().map(|column| column.power(&n));
+        let driven = Generalized { base: SpatialForce::zero(), joints: motors };
+        // The wall pushes on everything that moves the tip, base and joints.
+        let all = |column: &SpatialVelocity<f64>| column.power(&n);
+        let wall = Generalized {
+            base: SpatialForce::from_array(posture.J_frame.base.each_ref().map(all)),
+            joints: posture.J_frame.joints.each_ref().map(all),
+        };
+        let along = |force| {
+            let nudot = forward_dynamics(&posture.k, &force, &none);
+            posture.J_frame.times(&nudot).power(&n)
+        };
+        let (by_motors, by_wall) = (along(driven), along(wall));
+        let eta = by_motors / by_wall;
+        let B_n = n.to_array();
+        let B_n = DVector::from_column_slice(&B_n)
+            .dot(&(base_mobility(&posture) * DVector::from_column_slice(&B_n)));
+        assert!(eta > 0.0 && eta < 1.0, "eta {eta}");
+        gap(&by_wall, &(by_motors + B_n))
+    });
+}
+
 /// `ẍ = J* q̈ + J̇ν - J_b M_bb⁻¹ c_b` for a base that nothing pushes. Measured 8e-16.
 #[test]
 fn the_tip_accelerates_with_the_joints_and_the_bias_of_the_free_base() {

@@ -216,7 +216,8 @@ fn a_fixed_part_adds_its_own_spin_to_the_printed_moment() {
         let moving = in_time(&s.state, &s.nudot);
         let moving = kinematics(&robot, &moving);
         let w_B = moving.V_NB_B[s.frame.body].angular;
-        let I_B = s.load.seen_from(&s.frame.X_BF).I_parts_F;
+        let (R, I_F) = (s.frame.X_BF.rotation, s.load.I_parts_F.to_mat3());
+        let I_B = Sym3::symmetric_part(&(R * I_F * R.transpose()));
         let spin = moving.X_NB[s.frame.body].rotation * (Sym3::from_f64(I_B) * w_B);
         gap_at(&(with - without), &spin.rate(), size(&with).max(size(&spin.rate())))
     });
