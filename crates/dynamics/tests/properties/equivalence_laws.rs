@@ -118,7 +118,7 @@ fn a_link_without_mass_changes_nothing() {
     });
 }
 
-/// Everything that the kernels find for one scene, as plain numbers.
+/// Everything that the kernels find for one scene, as plain numbers; the forward dynamics last.
 fn everything<T: Scalar>(s: &Scene) -> Vec<Vec<f64>> {
     let cast = T::from_f64;
     let robot = s.robot.cast::<T>();
@@ -148,7 +148,6 @@ fn everything<T: Scalar>(s: &Scene) -> Vec<Vec<f64>> {
         elements.collect(),
         [plain(&c.base.to_array()), plain(&c.joints)].concat(),
         [plain(&force.base.to_array()), plain(&force.joints)].concat(),
-        [plain(&forward.base.to_array()), plain(&forward.joints)].concat(),
         plain(&h.angular.to_array()),
         plain(&h.linear.to_array()),
         vec![kinetic_energy(&k).to_f64()],
@@ -157,17 +156,28 @@ fn everything<T: Scalar>(s: &Scene) -> Vec<Vec<f64>> {
         plain(&barycentric_vectors(&k, &frame).links.map(Vec3::to_array)[n - 1]),
         plain(&printed.N_r_arm_cm.to_array()),
         reduced.H.iter().flat_map(|row| plain(row)).collect(),
+        [plain(&forward.base.to_array()), plain(&forward.joints)].concat(),
     ]
 }
 
-/// Single precision keeps 1.2e-7; the forward dynamics lose it by the condition of M, up to 4e4.
-/// Measured 1e-4.
+/// Single precision has a round-off of 1.2e-7; sums over 12 bodies and one inverse of the locked
+/// inertia cost up to two digits of it. Measured 2e-5.
 #[test]
 fn single_precision_agrees_to_single_precision() {
-    for_every_robot(1e-3, |s| {
+    for_every_robot(1e-4, |s| {
         let (double, single) = (everything::<f64>(s), everything::<f32>(s));
         assert!(double.iter().zip(&single).any(|(a, b)| a != b), "it is another scalar");
-        double.iter().zip(&single).fold(0.0, |worst: f64, (a, b)| worst.max(gap(a, b)))
+        let sums = double.len() - 1;
+        double[..sums].iter().zip(&single).fold(0.0, |worst: f64, (a, b)| worst.max(gap(a, b)))
+    });
+}
+
+/// The forward dynamics lose digits by the condition of M, up to 4e4. Measured 1e-4.
+#[test]
+fn single_precision_moves_as_double_does_within_the_condition_of_the_mass_matrix() {
+    for_every_robot(1e-3, |s| {
+        let (double, single) = (everything::<f64>(s), everything::<f32>(s));
+        gap(&double[double.len() - 1], &single[single.len() - 1])
     });
 }
 
