@@ -7,7 +7,7 @@ use crate::feedforward::feedforward_torque;
 use crate::law::{Feedforward, Measurement, Tuning};
 use crate::phase::{Held, JointTarget, JointTiming, PHASES, Path, Phase};
 use crate::resolved_motion::{
-    Assignment, Belief, Redundancy, Resolved, ResolvedMotion, WantedMotion, answered_motion,
+    Assignment, Belief, JointUse, Resolved, ResolvedMotion, WantedMotion, answered_motion,
     resolved_motion, task_jacobian,
 };
 use crate::tool_pose::{Unreachable, joints_for_tool};
@@ -23,8 +23,8 @@ use wrasse_spatial::{
 pub struct Setup<T, const J: usize> {
     /// What is asked of the arm; its axes are those of the current phase.
     pub assignment: Assignment<T>,
-    /// Use of the freedom that the task leaves.
-    pub redundancy: Redundancy<T, J>,
+    /// How the joints may be used.
+    pub joints: JointUse<T, J>,
     /// What the attitude control is told of the arm.
     pub feedforward: Feedforward,
     /// What the guidance measures.
@@ -79,8 +79,8 @@ pub struct FlightComputer<T, const J: usize> {
     /// Set-points and motion at the start of the coming period.
     now: [SetPoint<T>; J],
     motion: ResolvedMotion<T, J>,
-    /// Accelerations one period before: with those of now they tell the jerk.
-    before: ([T; J], SpatialVelocity<T>),
+    /// Measured twist of the base less the one that the law believed in (rad/s, m/s).
+    surprise: SpatialVelocity<T>,
     reference: ToolMotion<T>,
     axes: Axes,
 }
@@ -123,7 +123,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
                 qddot: [T::zero(); J],
                 A_NB_B: SpatialVelocity::zero(),
             },
-            before: ([T::zero(); J], SpatialVelocity::zero()),
+            surprise: SpatialVelocity::zero(),
             reference: ToolMotion {
                 X_NE: Pose::identity(),
                 V_NE_N: SpatialVelocity::zero(),
@@ -145,8 +145,10 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         }
         let period = self.setup.tuning.period;
         self.elapsed += 1;
-        self.advance_belief(period);
+        let (from, began) = (self.belief, self.motion);
+        self.predict(period);
         self.follow(T::from_f64(f64::from(self.elapsed)) * period);
+        self.correct(&from, &began, period);
         let mut next = [SetPoint::default(); J];
         for j in self.robot.joints() {
             next[j] = SetPoint {
@@ -168,7 +170,10 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         }
         self.belief.X_NB = sensed.X_NB;
         self.belief.h_Scm_N = momentum_of(&self.robot, sensed);
+        self.surprise = sensed.V_NB_B - self.motion.rate.V_NB_B;
+        self.motion.rate.V_NB_B = sensed.V_NB_B;
         if !self.started {
+            self.surprise = SpatialVelocity::zero();
             self.started = true;
             self.belief.q = sensed.q;
             for j in self.robot.joints() {
@@ -245,23 +250,32 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         })
     }
 
-    /// Where the vehicle is believed to be one period on, from its motion now: rates, accelerations,
-    /// and the jerk that the last two accelerations tell. Each step is right to fourth order, so that
-    /// positions and rates of successive set-points fit each other.
-    fn advance_belief(&mut self, period: T) {
-        let (half, sixth) = (T::from_f64(0.5) * period, T::from_f64(1.0 / 6.0) * period);
-        let (rate, qddot, A) = (self.motion.rate, self.motion.qddot, self.motion.A_NB_B);
+    /// Where the vehicle is believed to be one period on, first from its motion now alone.
+    fn predict(&mut self, period: T) {
+        let half = T::from_f64(0.5) * period;
         for j in self.robot.joints() {
-            let jerk_part = (qddot[j] - self.before.0[j]) * sixth;
-            self.belief.q[j] += (rate.qdot[j] + qddot[j] * half + jerk_part) * period;
+            let mean = self.motion.rate.qdot[j] + self.motion.qddot[j] * half;
+            self.belief.q[j] += mean * period;
         }
-        let V = rate.V_NB_B + A * half + (A - self.before.1) * sixth;
-        let X = &self.belief.X_NB;
-        let quat = turned_by(Quat::from_matrix(&X.rotation), V.angular * period);
-        // The translation is in axes that turn: half the turn is felt on average.
-        let halfway = X.rotation * Quat::exp(V.angular * half).to_matrix();
-        self.belief.X_NB = Pose::from_quat(quat, X.translation + halfway * (V.linear * period));
-        self.before = (qddot, A);
+        let mean = self.motion.rate.V_NB_B + self.motion.A_NB_B * half;
+        self.belief.X_NB = moved_on(&self.belief.X_NB, &mean, period);
+    }
+
+    /// The same again once the motion at the end is known too: `Δ = h (v₀ + v₁)/2 + h² (a₀ - a₁)/12`,
+    /// of fourth order, and what joins the set-points without a wiggle.
+    fn correct(&mut self, from: &Belief<T, J>, began: &ResolvedMotion<T, J>, period: T) {
+        let (half, twelfth) = (T::from_f64(0.5), T::from_f64(1.0 / 12.0) * period);
+        let ended = self.motion;
+        if self.follows_tool() {
+            for j in self.robot.joints() {
+                let mean = (began.rate.qdot[j] + ended.rate.qdot[j]) * half
+                    + (began.qddot[j] - ended.qddot[j]) * twelfth;
+                self.belief.q[j] = from.q[j] + mean * period;
+            }
+        }
+        let mean = (began.rate.V_NB_B + ended.rate.V_NB_B) * half
+            + (began.A_NB_B - ended.A_NB_B) * twelfth;
+        self.belief.X_NB = moved_on(&from.X_NB, &mean, period);
     }
 
     /// Joint motion at time `t` (s) of the path.
@@ -316,8 +330,8 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         let gain = self.setup.tuning.tool_gain;
         let wanted = WantedMotion {
             V_NE: self.reference.V_NE_N + error * gain,
-            // The error dies out as it is told to, so its rate is known.
-            Vdot_NE: self.reference.Vdot_NE_N - error * (gain * gain),
+            // The error dies out as it is told to, but for what the law did not expect of the base.
+            Vdot_NE: self.reference.Vdot_NE_N - (error * gain + self.surprise_at_tool(&X)) * gain,
         };
         let to = Assignment { axes: self.axes, ..self.setup.assignment };
         self.motion = resolved_motion(
@@ -326,8 +340,21 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
             &to,
             &self.belief,
             &wanted,
-            &self.setup.redundancy,
+            &self.setup.joints,
         );
+    }
+
+    /// Twist of the tool, at `X`, that the law did not expect.
+    fn surprise_at_tool(&self, X_NE: &Pose<T>) -> SpatialVelocity<T> {
+        let X_NB = &self.belief.X_NB;
+        match self.axes {
+            Axes::Base => SpatialVelocity::zero(),
+            Axes::Inertial => SpatialVelocity::new(
+                X_NB.rotation * self.surprise.angular,
+                X_NB.rotation * self.surprise.linear,
+            )
+            .shifted_by(X_NE.translation - X_NB.translation),
+        }
     }
 
     /// What the actuators are told between two sets of set-points.
@@ -428,6 +455,15 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         let last = self.phases.get(self.phase + 1).is_none_or(Option::is_none);
         self.begun && self.elapsed >= self.length && last
     }
+}
+
+/// A pose after a period of motion with a mean twist.
+fn moved_on<T: Scalar>(X_NB: &Pose<T>, mean: &SpatialVelocity<T>, period: T) -> Pose<T> {
+    let quat = turned_by(Quat::from_matrix(&X_NB.rotation), mean.angular * period);
+    // The translation is in axes that turn: half the turn is felt on average.
+    let half = Quat::exp(mean.angular * (period * T::from_f64(0.5))).to_matrix();
+    let way = X_NB.rotation * (half * mean.linear) * period;
+    Pose::from_quat(quat, X_NB.translation + way)
 }
 
 /// A tool that stays where it is.

@@ -23,7 +23,7 @@ pub use feedforward::feedforward_torque;
 pub use law::{ArmLaw, Feedforward, Measurement, Task, Tuning};
 pub use phase::{Held, JointTarget, JointTiming, PHASES, Phase, Target, Timing};
 pub use resolved_motion::{
-    Assignment, Belief, Redundancy, Resolved, ResolvedMotion, WantedMotion, answered_motion,
+    Assignment, Belief, JointUse, Resolved, ResolvedMotion, WantedMotion, answered_motion,
     joint_rates, resolved_motion, task_jacobian,
 };
 pub use tool_pose::{Unreachable, joints_for_tool};

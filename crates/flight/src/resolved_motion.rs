@@ -26,13 +26,16 @@ pub struct Assignment<T> {
     pub damped_below: T,
 }
 
-/// What the joints do with the freedom that the task leaves: drift towards a posture.
+/// How the joints may be used: how fast, and what they do with the freedom that the task leaves.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Redundancy<T, const J: usize> {
-    /// How fast (1/s); zero for joint rates of least norm.
+pub struct JointUse<T, const J: usize> {
+    /// Drift towards the posture (1/s); zero for joint rates of least norm.
     pub gain: T,
     /// The posture (rad or m).
     pub posture: [T; J],
+    /// Largest rate of each joint (rad/s or m/s): where one would pass it, all are slowed down
+    /// together, so that the tool keeps its direction and falls behind.
+    pub rate_limit: [T; J],
 }
 
 /// Where the vehicle is believed to be, and the momentum it is believed to have.
@@ -122,14 +125,14 @@ pub fn joint_rates<T: Real, const J: usize>(
     to: &Assignment<T>,
     belief: &Belief<T, J>,
     V_NE: &SpatialVelocity<T>,
-    redundancy: &Redundancy<T, J>,
+    joints: &JointUse<T, J>,
 ) -> Resolved<T, J> {
     let (columns, drift, M) = law_jacobian(robot, to, belief);
     let rows = columns.map(|c| masked(&c, to.task).to_array());
     let mut wanted = masked(&(*V_NE - drift), to.task).to_array();
     let mut qdot = [T::zero(); J];
     for j in robot.joints() {
-        qdot[j] = (redundancy.posture[j] - belief.q[j]) * redundancy.gain;
+        qdot[j] = (joints.posture[j] - belief.q[j]) * joints.gain;
     }
     for j in robot.joints() {
         for r in 0..6 {
@@ -142,6 +145,11 @@ pub fn joint_rates<T: Real, const J: usize>(
             qdot[j] += rows[j][r] * y[r];
         }
     }
+    let mut share = T::one();
+    for j in robot.joints() {
+        share = share.min(joints.rate_limit[j] / joints.rate_limit[j].max(qdot[j].abs()));
+    }
+    let qdot = qdot.map(|rate| rate * share);
     Resolved { qdot, V_NB_B: believed_base_twist(to.law, belief, &M, &qdot) }
 }
 
@@ -216,15 +224,18 @@ pub fn resolved_motion<T: Real, const J: usize>(
     to: &Assignment<T>,
     belief: &Belief<T, J>,
     wanted: &WantedMotion<T>,
-    redundancy: &Redundancy<T, J>,
+    joints: &JointUse<T, J>,
 ) -> ResolvedMotion<T, J> {
-    let rate = joint_rates(robot, to, belief, &wanted.V_NE, redundancy);
+    let rate = joint_rates(robot, to, belief, &wanted.V_NE, joints);
     let moving = in_motion(belief, &rate);
     let V = dual_velocity(&wanted.V_NE, &wanted.Vdot_NE);
     let constant = |x: T| Dual::new(x, T::zero());
-    let redundancy =
-        Redundancy { gain: constant(redundancy.gain), posture: redundancy.posture.map(constant) };
-    let found = joint_rates(dual_robot, &over_duals(to), &moving, &V, &redundancy);
+    let joints = JointUse {
+        gain: constant(joints.gain),
+        posture: joints.posture.map(constant),
+        rate_limit: joints.rate_limit.map(constant),
+    };
+    let found = joint_rates(dual_robot, &over_duals(to), &moving, &V, &joints);
     ResolvedMotion {
         rate,
         qddot: found.qdot.map(|x| x.derivative),

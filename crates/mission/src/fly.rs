@@ -56,6 +56,8 @@ pub(crate) fn fly(
     let (mut snapshots, mut last, mut phase) = (vec![], None, usize::MAX);
     let every = case.periods_per_sample();
     let mut end = End::Completed;
+    let tool = flight.world.pose(flight.computer.tool()).translation;
+    snapshots.push(snapshot(case, &flight.world, &flight.payload_poses(), [tool; 2]));
     for period in 0..plan.periods {
         let command = match flight.command() {
             Ok(command) => command,
@@ -99,10 +101,10 @@ pub(crate) fn fly(
     }
 }
 
-/// Whether the drawing shows this period: the first, the last, and some evenly between.
+/// Whether the drawing shows this period: the last, and some evenly between it and the start.
 fn is_snapshot(done: u64, all: u64, count: u32) -> bool {
     let gaps = u64::from(count - 1).max(1);
-    (0..=gaps).any(|i| (all * i / gaps).max(1) == done)
+    (1..=gaps).any(|i| (all * i / gaps).max(1) == done)
 }
 
 impl<'a> Flight<'a> {
@@ -284,7 +286,7 @@ pub(crate) fn ledger(books: &wrasse_world::Ledger, base: BaseAttitude) -> Ledger
     // Momentum is exact where it is the state; where the attitude is held its torque is a quadrature
     // of the same order as the integration, and so is all work.
     let bounds = match base {
-        BaseAttitude::Held => [1e-7, 1e-11, 1e-6],
+        BaseAttitude::Held => [1e-6, 1e-11, 1e-6],
         BaseAttitude::Controlled | BaseAttitude::Free => [1e-11, 1e-11, 1e-6],
     };
     let holds = |i: usize| books.worst[i] <= bounds[i] * books.scale[i] + f64::MIN_POSITIVE;

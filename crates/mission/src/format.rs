@@ -191,7 +191,7 @@ impl Default for WorldFile {
             base_attitude: BaseFile::Free,
             joints: JointsFile::Prescribed,
             torque_joints: vec![],
-            step_s: 0.01,
+            step_s: 0.005,
             adaptive_tolerance: None,
         }
     }

@@ -6,7 +6,7 @@ use crate::mission::{Case, PayloadStart};
 use crate::outcome::{End, PlanLine};
 use wrasse_dynamics::{Frame, Payload, Robot, kinematics};
 use wrasse_flight::{BadPhase, FlightComputer, Grip, NoWay, Sensed};
-use wrasse_spatial::Quat;
+use wrasse_spatial::{Quat, Vec3};
 use wrasse_vehicle::JOINTS;
 use wrasse_world::FreeBody;
 
@@ -30,6 +30,9 @@ pub(crate) struct Plan {
 #[derive(Debug, Clone, Copy)]
 struct PhaseNotes {
     periods: u64,
+    /// Where the reference began, and how far it has come (m).
+    start: Option<Vec3<f64>>,
+    way: f64,
     singular: f64,
     reach: f64,
     rate: f64,
@@ -39,6 +42,8 @@ struct PhaseNotes {
 impl PhaseNotes {
     const NONE: Self = Self {
         periods: 0,
+        start: None,
+        way: 0.0,
         singular: f64::INFINITY,
         reach: f64::INFINITY,
         rate: 0.0,
@@ -82,6 +87,8 @@ pub(crate) fn plan(case: &Case) -> Plan {
         belief.float_on();
         state = belief.computer.believed_state();
         notes.periods += 1;
+        let at = command.reference.X_NE.translation;
+        notes.way = (at - *notes.start.get_or_insert(at)).norm();
         if let Some(reason) = belief.look(&mut notes) {
             let time_s = time + case.period();
             plan.blocked =
@@ -146,6 +153,7 @@ impl<'a> Belief<'a> {
         let R = case.start.X_NB.rotation.transpose() * state.X_NB.rotation;
         notes.base_turn = Quat::from_matrix(&R).log().norm();
         notes.reach = notes.reach.min(reach);
+        let mut limited = String::new();
         for j in k.robot.joints() {
             notes.rate = notes.rate.max(state.v[j].abs());
             let (name, limits) = (case.joint_name(j), &case.vehicle.limits[j]);
@@ -158,14 +166,9 @@ impl<'a> Belief<'a> {
                 ));
             }
             if let Some(rate) = limits.rate
-                && state.v[j].abs() > rate * (1.0 + 1e-9)
+                && state.v[j].abs() > rate * (1.0 - 1e-9)
             {
-                let v = state.v[j].abs();
-                return Some(format!(
-                    "joint {name} would have to move at {v:.4}, its limit is {rate:.4} (rad/s or m/s); \
-                     {}",
-                    condition(singular, reach, notes.base_turn)
-                ));
+                limited = format!(", joint {name} at its rate limit of {rate:.4} (rad/s or m/s)");
             }
         }
         if !self.computer.follows_tool() {
@@ -175,7 +178,9 @@ impl<'a> Belief<'a> {
         let (off, turned) = self.computer.believed_tool_error();
         (off > OFF_THE_WAY.0 || turned > OFF_THE_WAY.1).then(|| {
             format!(
-                "the tool falls behind its reference by {:.3} mm and {:.4} deg; {}",
+                "{:.3} m along the way the tool falls behind its reference by {:.3} mm and {:.4} deg; \
+                 {}{limited}",
+                notes.way,
                 off * 1e3,
                 turned.to_degrees(),
                 condition(singular, reach, notes.base_turn)

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use wrasse_document::{Step, at};
 use wrasse_dynamics::{BodyId, Frame, JointKind, State};
 use wrasse_flight::{
-    ArmLaw, Assignment, Axes, Feedforward, Measurement, Redundancy, Setup, Task, Tuning,
+    ArmLaw, Assignment, Axes, Feedforward, JointUse, Measurement, Setup, Task, Tuning,
 };
 use wrasse_hardware::JointLimits;
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Vec3};
@@ -165,14 +165,22 @@ pub(crate) fn torque_joints(r: &mut Reading<'_>, file: &MissionFile) -> [bool; J
     torque
 }
 
+/// Rate (rad/s or m/s) of a joint that has no limit.
+const UNLIMITED: f64 = 1e3;
+
 /// The laws.
 pub(crate) fn setup(r: &mut Reading<'_>, file: &MissionFile) -> Setup<f64, JOINTS> {
     let c = &file.control;
     let path = |key| [Step::Key("control"), Step::Key(key)];
-    let mut redundancy = Redundancy { gain: 0.0, posture: [0.0; JOINTS] };
+    // Without a limit in the vehicle file: as fast as nothing moves.
+    let mut joints =
+        JointUse { gain: 0.0, posture: [0.0; JOINTS], rate_limit: [UNLIMITED; JOINTS] };
+    for (to, from) in joints.rate_limit.iter_mut().zip(&r.vehicle.limits) {
+        *to = from.rate.unwrap_or(UNLIMITED);
+    }
     if let Some(wanted) = &c.redundancy {
-        redundancy.posture = posture(r, at!["control", "redundancy", "posture"], &wanted.posture);
-        redundancy.gain = r.positive(at!["control", "redundancy", "gain_per_s"], wanted.gain_per_s);
+        joints.posture = posture(r, at!["control", "redundancy", "posture"], &wanted.posture);
+        joints.gain = r.positive(at!["control", "redundancy", "gain_per_s"], wanted.gain_per_s);
     }
     let mut limits = [JointLimits::default(); JOINTS];
     limits.iter_mut().zip(&r.vehicle.limits).for_each(|(to, from)| *to = *from);
@@ -191,7 +199,7 @@ pub(crate) fn setup(r: &mut Reading<'_>, file: &MissionFile) -> Setup<f64, JOINT
             },
             damped_below: r.positive(&path("damped_below"), c.damped_below),
         },
-        redundancy,
+        joints,
         feedforward: match c.feedforward {
             FeedforwardFile::Exact => Feedforward::Exact,
             FeedforwardFile::AsPrinted => Feedforward::AsPrinted,
