@@ -9,8 +9,8 @@ use wrasse_spatial::{Mat3, Real, SpatialVelocity};
 /// system's centre of mass, because the base recoils so that the centre of mass stays.
 ///
 /// # Source
-/// [`Ellery2004`](wrasse_spatial::references::Ellery2004), below eq. (7), mended: as printed it sums
-/// over the column index, leaves out the payload term and has no rotational rows.
+/// [`Ellery2004`](wrasse_spatial::references::Ellery2004), below eq. (7), mended: as printed it
+/// sums over the column index, leaves out the payload term and has no rotational rows.
 pub fn attitude_held_jacobian<T: Real, const J: usize>(
     J_frame: &Jacobian<T, J>,
     M: &MassMatrix<T, J>,

@@ -3,16 +3,17 @@
 use crate::{Frame, Kinematics, PerBody};
 use wrasse_spatial::{Real, Vec3};
 
-/// Vectors λ of all bodies for one frame: `p_NE = p_NScm + Σ R_NB λ_B`, each in its body's axes (m).
+/// Vectors λ of all bodies for one frame: `p_NE = p_NScm + Σ R_NB λ_B`, each in its body's axes
+/// (m).
 ///
-/// `λ_B = [B on the way to the frame] l_B - (m_B r_B + Σ_children m_subtree l_child)/m_T`, with `l_B`
-/// from Bo to the next joint on the way (or to the frame), `r_B` from Bo to Bcm. Bodies off the way
-/// count too: the other arm moves the centre of mass. They are constant but for prismatic joints,
-/// whose travel belongs to their parent's vector.
+/// `λ_B = [B on the way to the frame] l_B - (m_B r_B + Σ_children m_subtree l_child)/m_T`, with
+/// `l_B` from Bo to the next joint on the way (or to the frame), `r_B` from Bo to Bcm. Bodies off
+/// the way count too: the other arm moves the centre of mass. They are constant but for prismatic
+/// joints, whose travel belongs to their parent's vector.
 ///
 /// # Source
-/// [`Ellery2004`](wrasse_spatial::references::Ellery2004) eqs (6)–(7), with `R0` before `s0`; the tree
-/// form after [`VafaDubowsky1990`](wrasse_spatial::references::VafaDubowsky1990).
+/// [`Ellery2004`](wrasse_spatial::references::Ellery2004) eqs (6)–(7), with `R0` before `s0`; the
+/// tree form after [`VafaDubowsky1990`](wrasse_spatial::references::VafaDubowsky1990).
 #[doc(alias = "virtual manipulator")]
 pub fn barycentric_vectors<T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,

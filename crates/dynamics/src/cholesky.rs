@@ -16,8 +16,8 @@ pub struct Cholesky<T, const N: usize> {
 impl<T: Real, const N: usize> Cholesky<T, N> {
     /// Factor the leading `n`×`n` part of a symmetric matrix; only its lower triangle is read.
     ///
-    /// A matrix that is not positive definite gives a [`smallest_pivot`](Self::smallest_pivot) that is
-    /// not positive (NaN among them) and a factor without meaning: no branch is taken here.
+    /// A matrix that is not positive definite gives a [`smallest_pivot`](Self::smallest_pivot) that
+    /// is not positive (NaN among them) and a factor without meaning: no branch is taken here.
     #[inline(always)]
     pub fn new(M: &[[T; N]; N], n: usize) -> Self {
         let n = n.min(N);
@@ -34,8 +34,8 @@ impl<T: Real, const N: usize> Cholesky<T, N> {
                     sum -= c.L[i][k] * c.L[j][k];
                 }
                 if i == j {
-                    // A NaN is smaller than nothing, so it is asked whether the old one is; the first
-                    // pivot that is not positive stays.
+                    // A NaN is smaller than nothing, so it is asked whether the old one is; the
+                    // first pivot that is not positive stays.
                     let old = c.smallest_pivot;
                     let smaller = T::select(old.lt(sum), old, sum);
                     c.smallest_pivot = T::select(T::zero().lt(old), smaller, old);

@@ -59,8 +59,8 @@ struct Articulated<T> {
 ///
 /// # Source
 /// [`Featherstone2008`](wrasse_spatial::references::Featherstone2008) ch. 7, table 7.1; ch. 9.2 for
-/// joints that follow, ch. 9.4 for the floating base. The held attitude is the same elimination with
-/// the base's angular acceleration given.
+/// joints that follow, ch. 9.4 for the floating base. The held attitude is the same elimination
+/// with the base's angular acceleration given.
 #[doc(alias = "aba")]
 pub fn driven_dynamics<T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,

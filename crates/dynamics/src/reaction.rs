@@ -18,8 +18,8 @@ pub fn mount_reaction<T: Real, const J: usize>(
     at_Bo.about(k.joint_origin(j) - X_NB.translation)
 }
 
-/// Torque (N·m, inertial axes) that the attitude control must supply about the base body's centre of
-/// mass for the motion of `dynamics`: all arms and the base's own inertia included. Exact.
+/// Torque (N·m, inertial axes) that the attitude control must supply about the base body's centre
+/// of mass for the motion of `dynamics`: all arms and the base's own inertia included. Exact.
 ///
 /// # Source
 /// [`Longman1987`](wrasse_spatial::references::Longman1987): reaction moment compensation.

@@ -3,8 +3,8 @@
 use crate::{MassMatrix, Robot};
 use wrasse_spatial::{Real, Vec3};
 
-/// Columns of `H_w`: angular momentum about the system's centre of mass per joint rate, joints moving
-/// against a base that does not turn, base axes (N·m·s per rad/s or m/s).
+/// Columns of `H_w`: angular momentum about the system's centre of mass per joint rate, joints
+/// moving against a base that does not turn, base axes (N·m·s per rad/s or m/s).
 pub fn angular_momentum_per_rate<T: Real, const J: usize>(M: &MassMatrix<T, J>) -> [Vec3<T>; J] {
     let p_BScm_B = M.M_bb.centre_of_mass();
     M.M_bj.map(|h_B| h_B.about(p_BScm_B).torque)
@@ -12,8 +12,9 @@ pub fn angular_momentum_per_rate<T: Real, const J: usize>(M: &MassMatrix<T, J>) 
 
 /// `(1 - H_w⁺ H_w) ξ`: the part of the joint rates `ξ` that does not turn the base.
 ///
-/// Directions that the arm cannot turn the base about (a planar arm has two) drop out of `H_w`: what
-/// is left of a row beside the larger ones is taken for round-off below 1000 ε of the largest row.
+/// Directions that the arm cannot turn the base about (a planar arm has two) drop out of `H_w`:
+/// what is left of a row beside the larger ones is taken for round-off below 1000 ε of the largest
+/// row.
 ///
 /// # Source
 /// [`Nenchev1992`](wrasse_spatial::references::Nenchev1992).

@@ -198,7 +198,8 @@ impl core::error::Error for RobotError {}
 impl<T: Real, const J: usize> Robot<T, J> {
     /// From its base, and each joint with the body it carries (about the body's origin).
     ///
-    /// Masses and inertias are taken as they are: whether they are physical is asked where they are read.
+    /// Masses and inertias are taken as they are: whether they are physical is asked where they are
+    /// read.
     ///
     /// # Errors
     /// If there are more than `J` joints, or a parent does not come before its child.

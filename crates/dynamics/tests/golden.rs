@@ -17,9 +17,8 @@ use wrasse_dynamics::{
 };
 use wrasse_spatial::{Pose, Quat, SpatialForce, SpatialVelocity, Vec3};
 
-/// Asked of every array, relative to its largest element: the numbers carry 17 digits and both sides
-/// sum about ten bodies. Measured 8e-15 at most (angular
-/// momentum).
+/// Asked of every array, relative to its largest element: the numbers carry 17 digits and both
+/// sides sum about ten bodies. Measured 8e-15 at most (angular momentum).
 const RELATIVE: f64 = 1e-11;
 /// Asked where a matrix of condition 1e5 is solved, or large terms cancel. Measured 1e-12
 /// at most (printed N_T, whose golden sum is itself good to 2e-12).

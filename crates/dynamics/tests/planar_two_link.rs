@@ -1,5 +1,6 @@
-//! The planar free-flyer with two links of Papadopoulos and Dubowsky (1993): dynamic singularity and
-//! workspace, against the table in `validation/` and a closed form that shares nothing with the kernels.
+//! The planar free-flyer with two links of Papadopoulos and Dubowsky (1993): dynamic singularity
+//! and workspace, against the table in `validation/` and a closed form that shares nothing with the
+//! kernels.
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 #![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
 #![allow(clippy::print_stdout, reason = "prints what was measured, under --nocapture")]
@@ -88,8 +89,9 @@ impl Chain {
         let lambda = barycentric_vectors(&kinematics(&robot, &state), &frame);
         [lambda.base, lambda.links[0], lambda.links[1]].map(Vec3::norm)
     }
-    /// `J*` in closed form: each centre of mass, and the tip, is a sum of unit vectors along the bodies,
-    /// counted from the system's centre of mass; zero angular momentum gives the base's rate.
+    /// `J*` in closed form: each centre of mass, and the tip, is a sum of unit vectors along the
+    /// bodies, counted from the system's centre of mass; zero angular momentum gives the base's
+    /// rate.
     fn J_closed(&self, q: [f64; 2]) -> Planar {
         let m_T: f64 = self.mass.iter().sum();
         let length: [f64; 3] = array::from_fn(|i| self.before[i] + self.behind[i]);
@@ -210,8 +212,8 @@ fn the_dynamic_singularity_lies_where_it_was_published() {
     }
 }
 
-/// On a fixed base the same posture is regular: the singularity is the dynamics'. `l1 l2 sin q2` with
-/// links of 1 m.
+/// On a fixed base the same posture is regular: the singularity is the dynamics'. `l1 l2 sin q2`
+/// with links of 1 m.
 #[test]
 fn the_posture_is_regular_on_a_fixed_base() {
     let (robot, frame) = chain().robot();

@@ -34,8 +34,8 @@ mod tests {
     use super::*;
     use crate::vec3;
 
-    /// A sign error in the bracket would show here at first order. What is left is the series of κ at
-    /// 0.37 rad.
+    /// A sign error in the bracket would show here at first order. What is left is the series of κ
+    /// at 0.37 rad.
     #[test]
     fn the_rate_of_the_rotation_vector_gives_back_the_body_rate() {
         let (u, w) = (vec3(0.2, -0.1, 0.3), vec3(0.7, 0.4, -0.5));

@@ -45,8 +45,8 @@ fn forward_dynamics_solves_the_equations_of_motion() {
     });
 }
 
-/// Force some joints, move the others, in both modes of the base: inverse dynamics of the motion that
-/// comes out gives the forces that came out. Measured 7e-15.
+/// Force some joints, move the others, in both modes of the base: inverse dynamics of the motion
+/// that comes out gives the forces that came out. Measured 7e-15.
 #[test]
 fn driven_dynamics_agrees_with_inverse_dynamics_of_what_it_finds() {
     for mode in [BaseMode::Free, BaseMode::AttitudeHeld] {

@@ -99,8 +99,8 @@ fn the_generalized_jacobian_is_the_attitude_held_one_less_the_turn_of_the_base()
     });
 }
 
-/// `J̄_v = J_tip - J_com` of the arm on a fixed base, the latter by exact derivative; `J̄_w = J_tip`.
-/// Measured 4e-16.
+/// `J̄_v = J_tip - J_com` of the arm on a fixed base, the latter by exact derivative; `J̄_w =
+/// J_tip`. Measured 4e-16.
 #[test]
 fn the_attitude_held_jacobian_is_that_of_the_tip_less_that_of_the_centre_of_mass() {
     for_every_robot(1e-14, |s| {
@@ -120,8 +120,8 @@ fn the_attitude_held_jacobian_is_that_of_the_tip_less_that_of_the_centre_of_mass
     });
 }
 
-/// `v_e = v_cm + w_0 × (p - p_cm) + J̄_v q̇`, `w_e = w_0 + J̄_w q̇`: any attitude rate, any momentum.
-/// Measured 2e-15.
+/// `v_e = v_cm + w_0 × (p - p_cm) + J̄_v q̇`, `w_e = w_0 + J̄_w q̇`: any attitude rate, any
+/// momentum. Measured 2e-15.
 #[test]
 fn the_attitude_held_jacobian_gives_the_twist_at_any_attitude_rate_and_momentum() {
     for_every_robot(1e-13, |s| {
@@ -134,8 +134,8 @@ fn the_attitude_held_jacobian_gives_the_twist_at_any_attitude_rate_and_momentum(
     });
 }
 
-/// `J M⁻¹ Jᵀ = J* H*⁻¹ J*ᵀ + J_b M_bb⁻¹ J_bᵀ`: a force from outside meets less inertia than one from
-/// the joints. Measured 6e-15.
+/// `J M⁻¹ Jᵀ = J* H*⁻¹ J*ᵀ + J_b M_bb⁻¹ J_bᵀ`: a force from outside meets less inertia than one
+/// from the joints. Measured 6e-15.
 #[test]
 fn a_force_from_outside_meets_less_inertia_than_one_from_the_joints() {
     for_every_robot(1e-13, |s| {
@@ -238,7 +238,8 @@ fn the_tip_accelerates_with_the_joints_and_the_bias_of_the_free_base() {
     });
 }
 
-/// Columns that a robot whose base is `s` times heavier has; `mass` says whether its mass grows too.
+/// Columns that a robot whose base is `s` times heavier has; `mass` says whether its mass grows
+/// too.
 fn heavy(scene: &Scene, s: f64, mass: bool) -> (DMatrix<f64>, DMatrix<f64>, DMatrix<f64>) {
     let M = scene.robot.inertia(BodyId::Base);
     let (m, p, I) = (M.mass, M.centre_of_mass(), M.central());
@@ -261,9 +262,9 @@ fn heavy(scene: &Scene, s: f64, mass: bool) -> (DMatrix<f64>, DMatrix<f64>, DMat
     (dense_columns(&posture.free()[..n]), dense_columns(&posture.held()[..n]), fixed)
 }
 
-/// The distance to the limit falls tenfold per decade of base mass and inertia: over four decades the
-/// product of both is constant to the next order, which is the arm's inertia over the base's, up to
-/// 100/s. Measured 2e-3, from s = 1e5 on.
+/// The distance to the limit falls tenfold per decade of base mass and inertia: over four decades
+/// the product of both is constant to the next order, which is the arm's inertia over the base's,
+/// up to 100/s. Measured 2e-3, from s = 1e5 on.
 #[test]
 fn a_heavy_base_makes_the_robot_a_fixed_base_one_along_a_straight_line() {
     for_every_robot(2e-3, |scene| {

@@ -107,8 +107,8 @@ fn mass_matrix_rate(scene: &Scene, state: &State<f64, JOINTS>) -> DMatrix<f64> {
     DMatrix::from_fn(size, size, |i, j| M.element(i, j).derivative)
 }
 
-/// `νᵀ (Ṁ - 2C) ν = 0`: with a free base, whose rates are no derivatives of coordinates, this is what
-/// is left of the skew symmetry. Measured 2e-15.
+/// `νᵀ (Ṁ - 2C) ν = 0`: with a free base, whose rates are no derivatives of coordinates, this is
+/// what is left of the skew symmetry. Measured 2e-15.
 #[test]
 fn the_bias_force_does_half_the_work_of_the_changing_mass_matrix() {
     for_every_robot(1e-13, |s| {

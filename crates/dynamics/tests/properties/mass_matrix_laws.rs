@@ -44,8 +44,8 @@ fn the_kinetic_energy_of_the_bodies_is_that_of_the_mass_matrix() {
     });
 }
 
-/// Symmetric to the last bit, by construction. The error here is the condition: kilograms of the base
-/// against the lightest link's kg·m². Measured 4e4, far from round-off.
+/// Symmetric to the last bit, by construction. The error here is the condition: kilograms of the
+/// base against the lightest link's kg·m². Measured 4e4, far from round-off.
 #[test]
 fn the_mass_matrix_is_symmetric_and_positive_definite() {
     for_every_robot(1e8, |s| {

@@ -20,9 +20,10 @@ pub(crate) fn any_robot() -> impl Strategy<Value = Recipe> {
     })
 }
 
-/// The law's relative error must stay within the bound on 256 random trees. The worst one is printed
-/// (`--nocapture`): that is the number measured beside each bound. Bounds of round-off stand ten to a
-/// hundred times above it: room for another order of summation, none for a wrong term.
+/// The law's relative error must stay within the bound on 256 random trees. The worst one is
+/// printed (`--nocapture`): that is the number measured beside each bound. Bounds of round-off
+/// stand ten to a hundred times above it: room for another order of summation, none for a wrong
+/// term.
 #[track_caller]
 pub(crate) fn for_every_robot(bound: f64, error: impl Fn(&Scene) -> f64) {
     for_every(any_robot(), bound, error);

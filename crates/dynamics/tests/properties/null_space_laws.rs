@@ -129,8 +129,8 @@ fn nearly_across_x(small: f64) -> Quat<f64> {
     Quat::exp(vec3(0.0, 0.0, small)) * Quat::exp(vec3(across, 0.0, 0.0))
 }
 
-/// A planar arm can turn the base about one axis only: three of four directions are left, however the
-/// base's axes lie against the plane. Measured 9e-16.
+/// A planar arm can turn the base about one axis only: three of four directions are left, however
+/// the base's axes lie against the plane. Measured 9e-16.
 #[test]
 fn a_planar_arm_keeps_all_but_one_direction() {
     let tilts = [0.0, 1e-12, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-4, 0.3, 1.0];
@@ -170,8 +170,8 @@ fn a_planar_arm_keeps_all_but_one_direction_in_single_precision() {
     println!("planar dimension, single precision: worst {worst:.1e}");
 }
 
-/// An arm that cannot turn the base at all leaves every rate as it is: one sliding joint through the
-/// common centre of mass. Measured 0.
+/// An arm that cannot turn the base at all leaves every rate as it is: one sliding joint through
+/// the common centre of mass. Measured 0.
 #[test]
 fn an_arm_that_cannot_turn_the_base_is_free_in_every_rate() {
     let ball = Payload::from_central(10.0, Vec3::zero(), Sym3::diagonal(1.0, 1.0, 1.0));

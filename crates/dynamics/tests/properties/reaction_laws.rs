@@ -1,4 +1,5 @@
-//! The reaction at the mounts and the attitude torque: exact, by the sum over bodies, and as printed.
+//! The reaction at the mounts and the attitude torque: exact, by the sum over bodies, and as
+//! printed.
 
 use crate::in_time::{Rate, in_time};
 use crate::measure::{any_robot, for_every, for_every_robot, gap, gap_at, size};
@@ -160,8 +161,8 @@ fn the_torque_that_holds_the_base_is_the_attitude_torque() {
     });
 }
 
-/// The exact lumped form: `N = N_T + (p_a - p_1) × F_T + Σ m (r_c - p_a) × (a_c - a_a)`. The last sum
-/// is what eq. (3) leaves out. Measured 2e-15.
+/// The exact lumped form: `N = N_T + (p_a - p_1) × F_T + Σ m (r_c - p_a) × (a_c - a_a)`. The last
+/// sum is what eq. (3) leaves out. Measured 2e-15.
 #[test]
 fn the_printed_moment_lacks_the_orbital_part_of_the_arm() {
     for_every_robot(1e-13, |s| {
@@ -201,8 +202,8 @@ fn the_two_readings_of_equation_3_differ_by_a_lever() {
     });
 }
 
-/// Eq. (4) sums over the parts as they were listed: a load that is fixed to the last link counts with
-/// its own central inertia, wherever it sits. Measured 4e-15.
+/// Eq. (4) sums over the parts as they were listed: a load that is fixed to the last link counts
+/// with its own central inertia, wherever it sits. Measured 4e-15.
 #[test]
 fn a_fixed_part_adds_its_own_spin_to_the_printed_moment() {
     for_every_robot(1e-13, |s| {

@@ -97,8 +97,8 @@ fn attitude_held_effort_gives_the_joint_accelerations_asked_for() {
     });
 }
 
-/// A terrestrial torque `H_m q̈` gives a free-flyer `H*⁻¹ H_m q̈`, and `q̈ᵀ H_m H*⁻¹ H_m q̈` is never
-/// less than `q̈ᵀ H_m q̈`: it moves too far. Measured 5e-14.
+/// A terrestrial torque `H_m q̈` gives a free-flyer `H*⁻¹ H_m q̈`, and `q̈ᵀ H_m H*⁻¹ H_m q̈` is
+/// never less than `q̈ᵀ H_m q̈`: it moves too far. Measured 5e-14.
 #[test]
 fn terrestrial_torque_moves_a_free_flyer_too_far() {
     for_every_robot(1e-12, |s| {
