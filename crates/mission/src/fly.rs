@@ -1,5 +1,6 @@
 //! One case flown: the flight computer and the world, a control period at a time.
 
+use crate::limits_passed::{Passed, limits_passed};
 use crate::mission::{Case, PayloadStart};
 use crate::observe::{Observation, Track, observe};
 use crate::outcome::{End, Event, Ledger, Snapshot, Telemetry};
@@ -39,6 +40,7 @@ struct Flight<'a> {
     set_points: [SetPoint<f64>; JOINTS],
     /// What was already said of the current phase.
     said: Vec<Saturation>,
+    said_passed: Vec<Passed>,
     events: Vec<Event>,
 }
 
@@ -77,6 +79,7 @@ pub(crate) fn fly(
         track.follow(&command, flight.computer.follows_tool());
         flight.world.update_ledger(&mut ledger);
         let seen = observe(case, &flight.world, &flight.computer, &command, &track);
+        flight.tell_limits(&seen);
         watch.add(phase, &seen.values);
         let done = period + 1;
         if done % every == 0 || done == plan.periods {
@@ -139,6 +142,7 @@ impl<'a> Flight<'a> {
             holding,
             set_points: core::array::from_fn(start),
             said: vec![],
+            said_passed: vec![],
             events: vec![],
         }
     }
@@ -167,6 +171,7 @@ impl<'a> Flight<'a> {
 
     fn enter(&mut self, phase: usize) {
         self.said.clear();
+        self.said_passed.clear();
         if let Some(phase) = self.case.phases.get(phase) {
             self.say(format!("phase {}", phase.name));
         }
@@ -204,6 +209,16 @@ impl<'a> Flight<'a> {
         }
         let broken = self.world.advance(period).err()?;
         Some(End::Breakdown { time_s: broken.time, reason: broken.quantity })
+    }
+
+    /// Say which limits the truth passes, each once in a phase.
+    fn tell_limits(&mut self, seen: &Observation) {
+        for (passed, text) in limits_passed(self.case, seen) {
+            if !self.said_passed.contains(&passed) {
+                self.said_passed.push(passed);
+                self.say(text);
+            }
+        }
     }
 
     fn describe(&self, saturation: Saturation) -> String {

@@ -4,6 +4,7 @@
 mod arm_shape;
 mod fly;
 mod format;
+mod limits_passed;
 mod mission;
 mod observe;
 mod outcome;

@@ -1,0 +1,71 @@
+//! Limits that the truth passed: travel, rate and effort of joints, and what a held attitude asks of
+//! an actuator that is not simulated.
+
+use crate::mission::Case;
+use crate::observe::Observation;
+use wrasse_world::BaseAttitude;
+
+/// A limit that was passed: said once in each phase.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Passed {
+    Travel(usize),
+    Rate(usize),
+    Effort(usize),
+    HeldTorque(usize),
+    HeldMomentum(usize),
+}
+
+/// A little more than round-off: what is kept to the last digit was not passed.
+const SLACK: f64 = 1.0 + 1e-9;
+
+/// All limits that are passed now, each with a sentence.
+pub(crate) fn limits_passed(case: &Case, seen: &Observation) -> Vec<(Passed, String)> {
+    let mut passed = vec![];
+    for (j, limits) in case.vehicle.limits.iter().enumerate() {
+        let name = case.joint_name(j);
+        let (q, v, effort) = (seen.state.q[j], seen.state.v[j], seen.dynamics.force.joints[j]);
+        if let Some((lower, upper)) = limits.travel
+            && !(lower - 1e-9..=upper + 1e-9).contains(&q)
+        {
+            let text = format!(
+                "joint {name} beyond its travel: {q:.4}, from {lower:.4} to {upper:.4} (rad or m)"
+            );
+            passed.push((Passed::Travel(j), text));
+        }
+        if let Some(limit) = limits.rate.filter(|limit| v.abs() > limit * SLACK) {
+            let text =
+                format!("joint {name} faster than its limit of {limit:.4} (rad/s or m/s): {v:.4}");
+            passed.push((Passed::Rate(j), text));
+        }
+        if let Some(limit) = limits.effort.filter(|limit| effort.abs() > limit * SLACK) {
+            let text = format!(
+                "joint {name} needs more than its drive has: {effort:.4} of {limit:.4} (N·m or N)"
+            );
+            passed.push((Passed::Effort(j), text));
+        }
+    }
+    let Some(actuator) = case.vehicle.attitude_actuator.filter(|_| case.base == BaseAttitude::Held)
+    else {
+        return passed;
+    };
+    for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+        let torque = seen.torque_B.to_array()[axis];
+        if torque.abs() > actuator.torque_limit {
+            let limit = actuator.torque_limit;
+            let text = format!(
+                "holding the attitude takes {torque:.3} N·m about {name}, the actuator has {limit} N·m"
+            );
+            passed.push((Passed::HeldTorque(axis), text));
+        }
+        let stored = seen.stored_B.to_array()[axis];
+        if stored.abs() > actuator.momentum_limit {
+            let limit = actuator.momentum_limit;
+            let text = format!(
+                "holding the attitude stores {stored:.3} N·m·s about {name}, the actuator holds {limit} \
+                 N·m·s"
+            );
+            passed.push((Passed::HeldMomentum(axis), text));
+        }
+    }
+    passed
+}
