@@ -6,7 +6,7 @@ use std::process::Command;
 
 /// All tests of the workspace, doctests included; cargo's own lines close the output.
 pub(crate) fn test(arguments: &[String]) -> Result<(), String> {
-    let mut all = vec!["test", "--workspace", "--quiet"];
+    let mut all = vec!["test", "--workspace", "--no-fail-fast", "--quiet"];
     all.extend(arguments.iter().map(String::as_str));
     cargo(&all, None)
 }
