@@ -3,7 +3,7 @@
 
 use crate::door::Axes;
 use crate::inverse_kinematics::{
-    Attempt, ClosedForm, DampedLeastSquares, DampedOutcome, Held, SphericalRevoluteSpherical,
+    Anchor, Attempt, ClosedForm, DampedLeastSquares, DampedOutcome, SphericalRevoluteSpherical,
     damped_least_squares,
 };
 use crate::law::ArmLaw;
@@ -41,12 +41,12 @@ pub fn joints_for_tool<T: Scalar, const J: usize>(
     law: ArmLaw,
     limits: &[JointLimits<T>; J],
 ) -> Result<[T; J], Unreachable<T>> {
-    let (seen_from, held) = match (axes, law) {
-        (Axes::Base, _) => (State { X_NB: Pose::identity(), ..*state }, Held::Base),
-        (Axes::Inertial, ArmLaw::Terrestrial) => (*state, Held::Base),
-        (Axes::Inertial, _) => (*state, Held::AttitudeAndCentreOfMass),
+    let (seen_from, anchor) = match (axes, law) {
+        (Axes::Base, _) => (State { X_NB: Pose::identity(), ..*state }, Anchor::Base),
+        (Axes::Inertial, ArmLaw::Terrestrial) => (*state, Anchor::Base),
+        (Axes::Inertial, _) => (*state, Anchor::AttitudeAndCentreOfMass),
     };
-    if let Some(q) = closed_form(robot, tool, &seen_from, X, held, limits) {
+    if let Some(q) = closed_form(robot, tool, &seen_from, X, anchor, limits) {
         return Ok(q);
     }
     let c = T::from_f64;
@@ -60,7 +60,7 @@ pub fn joints_for_tool<T: Scalar, const J: usize>(
         rotation_error: a.rotation_error,
         joint,
     };
-    match damped_least_squares(robot, tool, &seen_from, X, limits, held, &settings) {
+    match damped_least_squares(robot, tool, &seen_from, X, limits, anchor, &settings) {
         DampedOutcome::Converged(attempt) => Ok(attempt.q),
         DampedOutcome::LimitsReached { attempt, joint } => Err(unreachable(attempt, Some(joint))),
         DampedOutcome::Stalled(a) | DampedOutcome::OutOfIterations(a) => Err(unreachable(a, None)),
@@ -77,12 +77,12 @@ fn closed_form<T: Scalar, const J: usize>(
     tool: &Frame<T>,
     state: &State<T, J>,
     X_NE: &Pose<T>,
-    held: Held,
+    anchor: Anchor,
     limits: &[JointLimits<T>; J],
 ) -> Option<[T; J]> {
-    let (arm, anchor) = match held {
-        Held::Base => (SphericalRevoluteSpherical::fixed_base(robot, tool).ok()?, state.X_NB),
-        Held::AttitudeAndCentreOfMass => {
+    let (arm, X_NA) = match anchor {
+        Anchor::Base => (SphericalRevoluteSpherical::fixed_base(robot, tool).ok()?, state.X_NB),
+        Anchor::AttitudeAndCentreOfMass => {
             let (_, p_NScm) = kinematics(robot, state).centre_of_mass();
             let arm = SphericalRevoluteSpherical::attitude_held(robot, tool, &state.q).ok()?;
             (arm, Pose::new(state.X_NB.rotation, p_NScm))
@@ -90,7 +90,7 @@ fn closed_form<T: Scalar, const J: usize>(
     };
     let near = arm.positions(&state.q);
     let (arm_angle, _) = arm.arm_angle(&near);
-    let ClosedForm::Solved(solutions) = arm.solve(&(anchor.inverse() * *X_NE), arm_angle, &near)
+    let ClosedForm::Solved(solutions) = arm.solve(&(X_NA.inverse() * *X_NE), arm_angle, &near)
     else {
         return None;
     };

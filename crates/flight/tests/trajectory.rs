@@ -4,8 +4,8 @@
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use wrasse_flight::trajectory::{
-    Expected, JointBlend, JointMove, JointSetPoint, Motion, MotionLimits, Profile, ProfileShape,
-    Quantity, Quintic, QuinticBlend, SCurve, StraightLine,
+    Expected, JointMove, Motion, MotionLimits, Profile, ProfileShape, Quantity, Quintic, SCurve,
+    StraightLine,
 };
 use wrasse_spatial::{Pose, Quat, vec3};
 
@@ -204,31 +204,6 @@ proptest! {
         prop_assert!(acceleration <= limits.jerk * h + rounding / T_, "{acceleration:e}");
     }
 
-    /// The six boundary values are met, and in between the derivatives are consistent.
-    #[test]
-    fn the_quintic_blend_joins_two_motions(
-        a in prop::array::uniform3(-2.0..2.0), b in prop::array::uniform3(-2.0..2.0),
-        duration in 0.005..5.0, u in 0.01..0.99
-    ) {
-        let motion = |[position, velocity, acceleration]: [f64; 3]| {
-            Motion { position, velocity, acceleration }
-        };
-        let blend = QuinticBlend::between(motion(a), motion(b), duration).unwrap();
-        prop_assert_eq!(blend.at(0.0), motion(a));
-        let end = blend.at(duration);
-        // The coefficients reach 1e2 and are multiplied by up to 20: 1e3 ε in the acceleration.
-        let scale = 4.0 * (1.0 + duration * (1.0 + duration));
-        let off = (end.position - b[0]).abs()
-            .max((end.velocity - b[1]).abs() * duration)
-            .max((end.acceleration - b[2]).abs() * duration * duration) / scale;
-        prop_assert!(off < 1e-13, "measured 1.6e-14: {off:e}");
-        let h = 1e-4 * duration;
-        let (velocity, acceleration) = derivative_errors(|t| blend.at(t), u * duration, h);
-
-        prop_assert!(velocity * duration < 1e-7 * scale, "measured 3.6e-8: {velocity:e}");
-        prop_assert!(acceleration * duration.powi(2) < 1e-6 * scale, "measured 3.3e-7: {acceleration:e}");
-    }
-
     /// Twist and acceleration of the line are the derivatives of its pose.
     #[test]
     fn the_line_moves_as_its_twist_says(
@@ -335,24 +310,6 @@ fn a_joint_limit_that_is_no_number_is_named_with_its_joint() {
         JointMove::within([0.0; 2], [1.0; 2], ProfileShape::SCurve, &[good, bad]).unwrap_err();
     let text = complaints.to_string();
     assert_eq!(text, "speed limit of joint 1: found NaN, expected a finite number above zero");
-}
-
-/// A sine of 1 rad sampled at 100 Hz: what a quintic leaves is h⁶/46080 of the sixth derivative,
-/// 2e-17 rad, so only rounding is seen.
-#[test]
-fn set_points_of_a_smooth_motion_are_joined_without_a_step() {
-    let at = |t: f64| JointSetPoint { q: [t.sin()], v: [t.cos()], vdot: [-t.sin()] };
-    let (period, mut worst) = (0.01, 0.0_f64);
-    for k in 0..200 {
-        let t0 = period * f64::from(k);
-        let blend = JointBlend::between(&at(t0), &at(t0 + period), period).unwrap();
-        for part in [0.0, 0.25, 0.5, 0.75, 1.0] {
-            let (found, expected) = (blend.at(part * period), at(t0 + part * period));
-            worst = worst.max((found.q[0] - expected.q[0]).abs());
-            worst = worst.max((found.v[0] - expected.v[0]).abs() * period);
-        }
-    }
-    assert!(worst < 1e-15, "measured 2.3e-16: {worst:e}");
 }
 
 #[test]

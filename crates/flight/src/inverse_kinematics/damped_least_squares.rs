@@ -8,7 +8,7 @@ use wrasse_spatial::{Pose, Quat, Scalar, SpatialVelocity, Vec3};
 
 /// What stands still while the arm moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Held {
+pub enum Anchor {
     /// The base: an arm on a fixed base.
     Base,
     /// The base's attitude and the centre of mass of the whole system.
@@ -67,7 +67,7 @@ struct Problem<'a, T, const J: usize> {
     state: &'a State<T, J>,
     X_NE: &'a Pose<T>,
     limits: &'a [JointLimits<T>; J],
-    held: Held,
+    anchor: Anchor,
     /// Where the centre of mass is (m).
     p_NScm: Vec3<T>,
 }
@@ -93,11 +93,11 @@ pub fn damped_least_squares<T: Scalar, const J: usize>(
     state: &State<T, J>,
     X_NE: &Pose<T>,
     limits: &[JointLimits<T>; J],
-    held: Held,
+    anchor: Anchor,
     settings: &DampedLeastSquares<T>,
 ) -> DampedOutcome<T, J> {
     let (_, p_NScm) = kinematics(robot, state).centre_of_mass();
-    let problem = Problem { robot, tool, state, X_NE, limits, held, p_NScm };
+    let problem = Problem { robot, tool, state, X_NE, limits, anchor, p_NScm };
     let mut q = problem.within_travel(&state.q);
     let (mut error, mut columns) = problem.error_and_jacobian(&q);
     let mut damping = T::from_f64(DAMPING.0);
@@ -154,9 +154,9 @@ impl<T: Scalar, const J: usize> Problem<'_, T, J> {
         let turn = self.X_NE.rotation * X_NE.rotation.transpose();
         let J_frame = jacobian(&k, self.tool);
         let away = self.X_NE.translation - X_NE.translation;
-        let (way, columns) = match self.held {
-            Held::Base => (away, J_frame.joints),
-            Held::AttitudeAndCentreOfMass => {
+        let (way, columns) = match self.anchor {
+            Anchor::Base => (away, J_frame.joints),
+            Anchor::AttitudeAndCentreOfMass => {
                 let M = mass_matrix(&k);
                 let columns = attitude_held_jacobian(&J_frame, &M, &state.X_NB.rotation);
                 // The base recoils by what the centre of mass would have moved.

@@ -12,7 +12,7 @@ mod spherical_revolute_spherical;
 pub use arm_chain::{ArmChain, NotThisKind};
 pub use closed_form::{ArmSolution, ClosedForm, Reference, Solutions};
 pub use damped_least_squares::{
-    Attempt, DampedLeastSquares, DampedOutcome, Held, damped_least_squares,
+    Anchor, Attempt, DampedLeastSquares, DampedOutcome, damped_least_squares,
 };
 pub use spherical_joint::Side;
 pub use spherical_revolute_spherical::{Branch, SphericalRevoluteSpherical};

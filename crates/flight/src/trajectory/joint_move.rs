@@ -1,8 +1,7 @@
-//! Joints from one posture to another, all on one profile; and set-points joined smoothly.
+//! Joints from one posture to another, all on one profile.
 
 use super::{
-    BadNumber, BadNumbers, Expected, Motion, MotionLimits, Profile, ProfileShape, Quantity,
-    Quintic, QuinticBlend,
+    BadNumber, BadNumbers, Expected, Motion, MotionLimits, Profile, ProfileShape, Quantity, Quintic,
 };
 use wrasse_spatial::{Real, Scalar};
 
@@ -21,10 +20,6 @@ impl<T: Real, const J: usize> JointSetPoint<T, J> {
     /// At rest in a posture.
     pub fn at_rest(q: [T; J]) -> Self {
         Self { q, v: [T::zero(); J], vdot: [T::zero(); J] }
-    }
-    /// The motion of one joint.
-    pub fn joint(&self, j: usize) -> Motion<T> {
-        Motion { position: self.q[j], velocity: self.v[j], acceleration: self.vdot[j] }
     }
     fn of_motions(motion: impl Fn(usize) -> Motion<T>) -> Self {
         let mut set_point = Self::at_rest([T::zero(); J]);
@@ -122,37 +117,5 @@ impl<T: Real, const J: usize> JointMove<T, J> {
     /// Progress of all joints.
     pub fn profile(&self) -> &Profile<T> {
         &self.profile
-    }
-}
-
-/// Set-points of one control period joined by a quintic for each joint: position, rate and
-/// acceleration are continuous from period to period.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct JointBlend<T, const J: usize> {
-    joints: [QuinticBlend<T>; J],
-}
-
-impl<T: Scalar, const J: usize> JointBlend<T, J> {
-    /// From one set-point to the next, `period` (s) later.
-    ///
-    /// # Errors
-    /// If the period is not positive and finite, or a boundary value is not finite.
-    pub fn between(
-        from: &JointSetPoint<T, J>,
-        to: &JointSetPoint<T, J>,
-        period: T,
-    ) -> Result<Self, BadNumbers> {
-        for j in 0..J {
-            QuinticBlend::between(from.joint(j), to.joint(j), period)?;
-        }
-        let blend = |j| QuinticBlend::joining(from.joint(j), to.joint(j), period);
-        Ok(Self { joints: core::array::from_fn(blend) })
-    }
-}
-
-impl<T: Real, const J: usize> JointBlend<T, J> {
-    /// Set-point at time `t` (s) after the first; held at the nearer one outside the period.
-    pub fn at(&self, t: T) -> JointSetPoint<T, J> {
-        JointSetPoint::of_motions(|j| self.joints[j].at(t))
     }
 }

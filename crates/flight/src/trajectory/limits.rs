@@ -58,12 +58,6 @@ pub enum Quantity {
     AccelerationLimit,
     /// Largest jerk (per s³).
     JerkLimit,
-    /// Position, velocity or acceleration at the start: their sum is shown.
-    Start,
-    /// Position, velocity or acceleration at the end: their sum is shown.
-    End,
-    /// Coefficients of a polynomial: their sum is shown (m, rad or –).
-    Coefficients,
     /// Way from the first to the last position (m, rad).
     Way,
     /// Relative rotation of two poses: the sum of its matrix is shown (–).
@@ -133,9 +127,6 @@ impl fmt::Display for BadNumber {
             Quantity::SpeedLimit => "speed limit",
             Quantity::AccelerationLimit => "acceleration limit",
             Quantity::JerkLimit => "jerk limit",
-            Quantity::Start => "motion at the start (sum of its numbers)",
-            Quantity::End => "motion at the end (sum of its numbers)",
-            Quantity::Coefficients => "coefficients of the polynomial (their sum)",
             Quantity::Way => "way from start to end",
             Quantity::Rotation => "relative rotation (sum of its matrix)",
         };

@@ -8,10 +8,10 @@ mod quintic;
 mod s_curve;
 mod straight_line;
 
-pub use joint_move::{JointBlend, JointMove, JointSetPoint};
+pub use joint_move::{JointMove, JointSetPoint};
 pub use limits::{BadNumber, BadNumbers, Expected, MotionLimits, Quantity};
 pub use profile::{Profile, ProfileShape};
-pub use quintic::{Quintic, QuinticBlend};
+pub use quintic::Quintic;
 pub use s_curve::SCurve;
 pub use straight_line::{StraightLine, ToolMotion};
 

@@ -1,4 +1,4 @@
-//! Quintic profiles: the lowest polynomial that joins positions, velocities and accelerations.
+//! Quintic profiles: the lowest polynomial from rest to rest.
 
 use super::cube_root::cube_root;
 use super::{BadNumber, BadNumbers, Motion, MotionLimits, Quantity};
@@ -76,77 +76,5 @@ impl<T: Real> Quintic<T> {
     /// Length of the path (m, rad or –).
     pub fn length(&self) -> T {
         self.length
-    }
-}
-
-/// The quintic that leaves one motion and arrives in another (Hermite interpolation).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct QuinticBlend<T> {
-    start: Motion<T>,
-    /// Coefficients of u³, u⁴, u⁵.
-    high: [T; 3],
-    duration: T,
-}
-
-impl<T: Scalar> QuinticBlend<T> {
-    /// From `start` to `end` in `duration` (s).
-    ///
-    /// # Errors
-    /// If the duration is not positive and finite, a boundary value is not finite, or all together
-    /// overflow.
-    pub fn between(start: Motion<T>, end: Motion<T>, duration: T) -> Result<Self, BadNumbers> {
-        let finite = |quantity, m: &Motion<T>| {
-            let sum = m.position + m.velocity + m.acceleration;
-            BadNumber::unless_finite(quantity, sum)
-        };
-        BadNumbers::none_of([
-            finite(Quantity::Start, &start),
-            finite(Quantity::End, &end),
-            BadNumber::unless_positive(Quantity::Duration, duration),
-        ])?;
-        let blend = Self::joining(start, end, duration);
-        let [k3, k4, k5] = blend.high;
-        BadNumbers::none_of([BadNumber::unless_finite(Quantity::Coefficients, k3 + k4 + k5)])?;
-        Ok(blend)
-    }
-}
-
-impl<T: Real> QuinticBlend<T> {
-    /// The polynomial itself, from numbers that are known to be good.
-    pub(super) fn joining(start: Motion<T>, end: Motion<T>, duration: T) -> Self {
-        let c = T::from_f64;
-        let (T_, half) = (duration, c(0.5));
-        // What the start alone would reach, and what then is left to reach.
-        let a0 = start.acceleration * T_ * T_;
-        let left = end.position - start.position - start.velocity * T_ - a0 * half;
-        let speed_left = (end.velocity - start.velocity) * T_ - a0;
-        let acceleration_left = end.acceleration * T_ * T_ - a0;
-        let high = [
-            left * c(10.0) - speed_left * c(4.0) + acceleration_left * half,
-            speed_left * c(7.0) - left * c(15.0) - acceleration_left,
-            left * c(6.0) - speed_left * c(3.0) + acceleration_left * half,
-        ];
-        Self { start, high, duration }
-    }
-    /// Motion at time `t` (s); outside the duration, that of the nearer end.
-    pub fn at(&self, t: T) -> Motion<T> {
-        let c = T::from_f64;
-        let T_ = self.duration;
-        let t = t.max(T::zero()).min(T_);
-        let u = t / T_;
-        let [k3, k4, k5] = self.high;
-        let Motion { position, velocity, acceleration } = self.start;
-        let bend = u * u * (k3 + u * (k4 + u * k5));
-        let slope = u * (c(3.0) * k3 + u * (c(4.0) * k4 + u * c(5.0) * k5));
-        let curve = c(6.0) * k3 + u * (c(12.0) * k4 + u * c(20.0) * k5);
-        Motion {
-            position: position + t * (velocity + t * acceleration * c(0.5)) + u * bend,
-            velocity: velocity + t * acceleration + u * slope / T_,
-            acceleration: acceleration + u * curve / (T_ * T_),
-        }
-    }
-    /// Time from start to end (s).
-    pub fn duration(&self) -> T {
-        self.duration
     }
 }

@@ -6,7 +6,7 @@ use crate::arms::{
 use proptest::prelude::*;
 use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, Robot, State, kinematics};
 use wrasse_flight::inverse_kinematics::{
-    DampedLeastSquares, DampedOutcome, Held, damped_least_squares,
+    Anchor, DampedLeastSquares, DampedOutcome, damped_least_squares,
 };
 use wrasse_hardware::JointLimits;
 use wrasse_spatial::{Mat3, Pose, Quat, Vec3, vec3};
@@ -47,7 +47,7 @@ proptest! {
         let (robot, tool) = atlas_class();
         let X_NE = tool_from_base(&robot, &tool, &q);
         let seed = state(moved(&q, &by));
-        let outcome = damped_least_squares(&robot, &tool, &seed, &X_NE, &free(), Held::Base, &FINE);
+        let outcome = damped_least_squares(&robot, &tool, &seed, &X_NE, &free(), Anchor::Base, &FINE);
         let DampedOutcome::Converged(found) = outcome else { panic!("{outcome:?}") };
         let (off, turned) = difference(&tool_from_base(&robot, &tool, &found.q), &X_NE);
         prop_assert!(off < 1e-9 && turned < 1e-9, "{off:e} {turned:e}");
@@ -61,7 +61,7 @@ proptest! {
         let (robot, tool) = atlas_class();
         let X_NE = tool_from_base(&robot, &tool, &q);
         let outcome =
-            damped_least_squares(&robot, &tool, &state(seed), &X_NE, &free(), Held::Base, &FINE);
+            damped_least_squares(&robot, &tool, &state(seed), &X_NE, &free(), Anchor::Base, &FINE);
         let DampedOutcome::Converged(found) = outcome else { panic!("{outcome:?}") };
         prop_assert!(found.iterations <= 40, "measured 28: {}", found.iterations);
     }
@@ -79,8 +79,8 @@ proptest! {
         // The anchor stands still: its place now, with the base's axes.
         let X_NA = Pose::new(X_NB.rotation, kinematics(&robot, &seed).centre_of_mass().1);
         let X_NE = X_NA * tool_from_centre_of_mass(&robot, &tool, &q);
-        let held = Held::AttitudeAndCentreOfMass;
-        let outcome = damped_least_squares(&robot, &tool, &seed, &X_NE, &free(), held, &FINE);
+        let anchor = Anchor::AttitudeAndCentreOfMass;
+        let outcome = damped_least_squares(&robot, &tool, &seed, &X_NE, &free(), anchor, &FINE);
         let DampedOutcome::Converged(found) = outcome else { panic!("{outcome:?}") };
         let X_NE_found = X_NA * tool_from_centre_of_mass(&robot, &tool, &found.q);
         let (off, turned) = difference(&X_NE_found, &X_NE);
@@ -103,8 +103,8 @@ proptest! {
         seed.q[2..].copy_from_slice(&moved(&q, &by));
         let p_cm = kinematics(&robot, &seed).centre_of_mass().1;
         let X_NE = Pose::new(Mat3::identity(), p_cm) * tool_from_centre_of_mass(&robot, &tool, &all);
-        let held = Held::AttitudeAndCentreOfMass;
-        let outcome = damped_least_squares(&robot, &tool, &seed, &X_NE, &free(), held, &FINE);
+        let anchor = Anchor::AttitudeAndCentreOfMass;
+        let outcome = damped_least_squares(&robot, &tool, &seed, &X_NE, &free(), anchor, &FINE);
         let DampedOutcome::Converged(found) = outcome else { panic!("{outcome:?}") };
         prop_assert_eq!(&found.q[..2], &other);
     }
@@ -120,7 +120,7 @@ proptest! {
         let limits = travel(&q, 0.3);
         let seed = state(moved(&q, &by));
         let outcome =
-            damped_least_squares(&robot, &tool, &seed, &X_NE, &limits, Held::Base, &FINE);
+            damped_least_squares(&robot, &tool, &seed, &X_NE, &limits, Anchor::Base, &FINE);
         let found = match outcome {
             DampedOutcome::LimitsReached { attempt, .. } => attempt,
             DampedOutcome::Converged(found)
@@ -150,7 +150,7 @@ proptest! {
         let p = shoulder + toward * (1.4 / toward.norm());
         let X_NE = Pose::from_quat(Quat::exp(Vec3::from_array(r)), p);
         let outcome =
-            damped_least_squares(&robot, &tool, &state(seed), &X_NE, &free(), Held::Base, &FINE);
+            damped_least_squares(&robot, &tool, &state(seed), &X_NE, &free(), Anchor::Base, &FINE);
         let DampedOutcome::Stalled(found) = outcome else { panic!("{outcome:?}") };
         prop_assert!(found.position_error > 0.35 - 1e-12, "{found:?}");
         prop_assert!(found.iterations <= 80, "measured 53: {}", found.iterations);
@@ -166,7 +166,7 @@ proptest! {
         let limits = travel(&q, 0.1);
         let seed = state(moved(&q, &by));
         let outcome =
-            damped_least_squares(&robot, &tool, &seed, &X_NE, &limits, Held::Base, &FINE);
+            damped_least_squares(&robot, &tool, &seed, &X_NE, &limits, Anchor::Base, &FINE);
         let DampedOutcome::Converged(found) = outcome else { panic!("{outcome:?}") };
         prop_assert!(found.iterations <= 10, "measured 5: {}", found.iterations);
     }
@@ -179,7 +179,7 @@ fn a_target_out_of_reach_stalls_with_the_distance_that_is_missing() {
     let (robot, tool) = atlas_class();
     let X_NE = Pose::new(Mat3::identity(), vec3(0.9 + 1.05 + 0.25, 0.5, 0.0));
     let seed = state([0.3, 0.5, -0.2, -0.9, 0.4, 0.6, 0.1]);
-    let outcome = damped_least_squares(&robot, &tool, &seed, &X_NE, &free(), Held::Base, &FINE);
+    let outcome = damped_least_squares(&robot, &tool, &seed, &X_NE, &free(), Anchor::Base, &FINE);
     let DampedOutcome::Stalled(found) = outcome else { panic!("{outcome:?}") };
     let (off, turned) = difference(&tool_from_base(&robot, &tool, &found.q), &X_NE);
     assert_eq!((off, turned), (found.position_error, found.rotation_error));
@@ -196,7 +196,7 @@ fn an_elbow_at_the_end_of_its_travel_is_named() {
     let mut limits = free();
     limits[3].travel = Some((-0.8, 0.8));
     let seed = state([0.3, 0.5, -0.2, -0.7, 0.4, 0.6, 0.1]);
-    let outcome = damped_least_squares(&robot, &tool, &seed, &X_NE, &limits, Held::Base, &FINE);
+    let outcome = damped_least_squares(&robot, &tool, &seed, &X_NE, &limits, Anchor::Base, &FINE);
     let DampedOutcome::LimitsReached { attempt, joint } = outcome else { panic!("{outcome:?}") };
     assert_eq!(joint, 3);
     assert_eq!(attempt.q[3], -0.8);
@@ -226,7 +226,7 @@ fn what_a_stopped_joint_leaves_the_others_take_over_at_once() {
     let X_NE = Pose::new(Mat3::identity(), X);
     let once = DampedLeastSquares { iterations: 1, ..FINE };
     let seed = state([0.0; 2]);
-    let outcome = damped_least_squares(&robot, &tool, &seed, &X_NE, &limits, Held::Base, &once);
+    let outcome = damped_least_squares(&robot, &tool, &seed, &X_NE, &limits, Anchor::Base, &once);
     let DampedOutcome::OutOfIterations(found) = outcome else { panic!("{outcome:?}") };
     assert_eq!(found.q[0], 0.1);
     let left = found.position_error - 0.9 / 101.0;
@@ -240,7 +240,7 @@ fn no_iterations_and_no_numbers_are_outcomes() {
     let X_NE = tool_from_base(&robot, &tool, &q);
     let none = DampedLeastSquares { iterations: 0, ..FINE };
     let solve = |seed: [f64; 7], X_NE: &Pose<f64>, settings: &DampedLeastSquares<f64>| {
-        damped_least_squares(&robot, &tool, &state(seed), X_NE, &free(), Held::Base, settings)
+        damped_least_squares(&robot, &tool, &state(seed), X_NE, &free(), Anchor::Base, settings)
     };
     let outcome = solve([0.1; 7], &X_NE, &none);
     assert!(matches!(outcome, DampedOutcome::OutOfIterations(found) if found.q == [0.1; 7]));
@@ -269,7 +269,7 @@ fn a_solve_repeats_bit_for_bit() {
             &seed,
             &X_NE,
             &free(),
-            Held::AttitudeAndCentreOfMass,
+            Anchor::AttitudeAndCentreOfMass,
             &FINE,
         )
     };
