@@ -1,12 +1,13 @@
 //! The ATLAS-class servicer with a 500 kg cube in its grip, as the catalogue has it, built by hand.
+#![allow(dead_code, reason = "each test binary uses its part")]
 
 use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, Payload, Robot, State};
 use wrasse_spatial::{Pose, Sym3, Vec3, vec3};
 
 /// Joints of the arm.
-pub const J: usize = 7;
+pub(crate) const J: usize = 7;
 /// The posture `sideways_300mm` (deg).
-pub const SIDEWAYS_300MM_DEG: [f64; J] = [
+pub(crate) const SIDEWAYS_300MM_DEG: [f64; J] = [
     10.310339413,
     -35.907341878,
     -34.307016688,
@@ -21,7 +22,7 @@ fn shifted(p: Vec3<f64>) -> Pose<f64> {
 }
 
 /// A spherical–revolute–spherical arm of 1.05 m and 56 kg on a 1500 kg bus.
-pub fn unladen() -> Robot<f64, J> {
+pub(crate) fn unladen() -> Robot<f64, J> {
     let bus = Payload::from_central(1500.0, Vec3::zero(), Sym3::diagonal(640.0, 725.0, 725.0));
     // (mount on the parent, mass, centre of mass along x, inertia about x, about y and z)
     let links = [
@@ -45,12 +46,12 @@ pub fn unladen() -> Robot<f64, J> {
 }
 
 /// The tool frame: 0.2 m ahead of the last joint.
-pub fn tool() -> Frame<f64> {
+pub(crate) fn tool() -> Frame<f64> {
     Frame { body: BodyId::Link(6), X_BF: shifted(vec3(0.2, 0.0, 0.0)) }
 }
 
 /// A cube of 1 m and the given mass (kg), gripped at a face.
-pub fn cube(mass: f64) -> Payload<f64> {
+pub(crate) fn cube(mass: f64) -> Payload<f64> {
     Payload::from_central(
         mass,
         vec3(0.5, 0.0, 0.0),
@@ -59,7 +60,7 @@ pub fn cube(mass: f64) -> Payload<f64> {
 }
 
 /// Coasting from `sideways_300mm` with joint rates up to 0.02 rad/s and base rates up to 0.01.
-pub fn coasting() -> State<f64, J> {
+pub(crate) fn coasting() -> State<f64, J> {
     State {
         q: SIDEWAYS_300MM_DEG.map(f64::to_radians),
         v: [0.02, -0.017, 0.013, 0.019, -0.02, 0.011, -0.015],
