@@ -234,3 +234,54 @@ fn a_mission_flown_twice_gives_the_same_bits() {
         assert!(same, "{} differs", a.name);
     }
 }
+
+/// Rows of the tables in the book's page, as cells.
+fn rows_of_the_book() -> Vec<Vec<String>> {
+    let page = missions_folder().join("../book/src/validation/miss_distance.md");
+    let text = std::fs::read_to_string(page).expect("the page is there");
+    let rows = text.lines().filter(|line| line.starts_with("| "));
+    rows.map(|row| row.trim_matches('|').split('|').map(|cell| cell.trim().into()).collect())
+        .collect()
+}
+
+/// The page prints two digits; half of the last one is its rounding.
+#[track_caller]
+fn same(printed: &str, found: f64, digits: i32, row: &[String]) {
+    let printed: f64 = printed.parse().unwrap_or_else(|_| panic!("{printed} in {row:?}"));
+    let rounding = 0.51 * 10f64.powi(-digits);
+    assert!((printed - found).abs() <= rounding, "{row:?}: found {found}");
+}
+
+#[test]
+fn the_book_tells_what_the_missions_find() {
+    let mut compared = 0;
+    for row in rows_of_the_book() {
+        let labels: Vec<&str> = row.iter().map(String::as_str).collect();
+        match labels[..] {
+            [a, b, c, along, across, turned] if a.ends_with("ways") || a.ends_with("ward") => {
+                let case = case("miss-distance", &[a, b, c]);
+                if let End::Infeasible { time_s, .. } = case.end {
+                    assert!(turned.contains(&format!("way ends at {time_s:.2} s")), "{row:?}");
+                } else {
+                    same(along, metric(case, "tool.along_track_error.final") * 1e3, 2, &row);
+                    same(across, metric(case, "tool.lateral_error.final") * 1e3, 2, &row);
+                    same(turned, metric(case, "base.rotation.final").to_degrees(), 2, &row);
+                }
+            }
+            [truth @ ("floating" | "attitude held"), law, travelled, share] => {
+                let found = metric(case("overshoot", &[truth, law]), "joint.joint2.travel.final");
+                same(travelled, found.to_degrees(), 2, &row);
+                same(share, found.to_degrees() / 20.0, 3, &row);
+            }
+            [feedback @ ("none" | "0.3 rad/s"), fed, most, last, off] => {
+                let case = case("feedforward", &[feedback, fed]);
+                same(most, metric(case, "base.rotation.max").to_degrees(), 4, &row);
+                same(last, metric(case, "base.rotation.final").to_degrees(), 4, &row);
+                same(off, metric(case, "tool.position_error.final") * 1e3, 2, &row);
+            }
+            _ => continue,
+        }
+        compared += 1;
+    }
+    assert_eq!(compared, 45 + 6 + 8);
+}
