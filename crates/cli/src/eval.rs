@@ -6,8 +6,10 @@ use crate::{YES, bad};
 use clap::Args;
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 use wrasse_document::{Complaint, Source, closest};
 use wrasse_dynamics::{Generalized, State};
 use wrasse_spatial::{Pose, Quat, SpatialForce, SpatialVelocity, Vec3};
@@ -93,7 +95,7 @@ pub(crate) struct Question {
 
 impl Eval {
     pub(crate) fn go(&self) -> ExitCode {
-        let vehicle = match find_vehicle(&self.vehicle, Some(Path::new("."))) {
+        let vehicle = match find_vehicle(&self.vehicle, None) {
             Ok(vehicle) => vehicle,
             Err(NoVehicle::Faulty(complaints)) => {
                 complain(&complaints);
@@ -132,12 +134,8 @@ fn questions(
     vehicle: &Vehicle,
 ) -> Result<(String, Vec<Question>), Vec<Complaint>> {
     let source = Source::new(path, text);
-    let file: StatesFile = serde_json::from_str(&source.text).map_err(|error| {
-        let at = offset(&source.text, error.line(), error.column());
-        let message = error.to_string();
-        let message = message.split(" at line ").next().unwrap_or_default().to_owned();
-        vec![Complaint::error(&source, message).at(at..at + 1, "here")]
-    })?;
+    let file: StatesFile =
+        serde_json::from_str(&source.text).map_err(|error| vec![misshapen(&source, &error)])?;
     let mut complaints = vec![];
     let mut unknown = |name: &str, what: &str, names: Vec<&str>| {
         let at = source.text.find(&format!("\"{name}\"")).unwrap_or(0);
@@ -164,20 +162,51 @@ fn questions(
     for (i, state) in file.states.iter().enumerate() {
         match question(state, vehicle) {
             Ok(question) => questions.push(question),
-            Err(why) => complaints.push(Complaint::error(&source, format!("state {i}: {why}"))),
+            Err(why) => {
+                let complaint = Complaint::error(&source, format!("state {i}: {why}"))
+                    .with_help("divide all four components by the length");
+                complaints.push(match attitude_span(&source.text, &file.states[..i]) {
+                    Some(span) => complaint.at(span, "this attitude"),
+                    None => complaint,
+                });
+            }
         }
     }
     if complaints.is_empty() { Ok((file.frame, questions)) } else { Err(complaints) }
 }
 
-/// Byte offset of a line and column, both from 1.
-fn offset(text: &str, line: usize, column: usize) -> usize {
+/// What keeps a text from being states.
+fn misshapen(source: &Arc<Source>, error: &serde_json::Error) -> Complaint {
+    let message = error.to_string();
+    let message = message.split(" at line ").next().unwrap_or_default();
+    let message = message.replace("expected f64", "expected a number");
+    let span = token(&source.text, error.line(), error.column());
+    Complaint::error(source, message).at(span, "here")
+}
+
+/// Byte range of the word, number or mark that ends at a line and column, both from 1.
+fn token(text: &str, line: usize, column: usize) -> Range<usize> {
     let before: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
-    let mut at = (before + column.saturating_sub(1)).min(text.len().saturating_sub(1));
-    while !text.is_char_boundary(at) {
-        at -= 1;
+    let mut end = (before + column).min(text.len());
+    while !text.is_char_boundary(end) {
+        end += 1;
     }
-    at
+    let head = &text[..end];
+    let start = if let Some(word) = head.strip_suffix('"') {
+        word.rfind('"').unwrap_or(word.len())
+    } else {
+        let number = |c: char| c.is_ascii_alphanumeric() || "+-.".contains(c);
+        let start = head.trim_end_matches(number).len();
+        start.min(head.char_indices().last().map_or(0, |(last, _)| last))
+    };
+    start..end
+}
+
+/// Byte range of the key of the first attitude that stands behind those of `earlier` states.
+fn attitude_span(text: &str, earlier: &[StateFile]) -> Option<Range<usize>> {
+    const KEY: &str = "\"attitude\"";
+    let count = earlier.iter().filter(|state| state.base.attitude.is_some()).count();
+    text.match_indices(KEY).nth(count).map(|(at, _)| at..at + KEY.len())
 }
 
 fn question(file: &StateFile, vehicle: &Vehicle) -> Result<Question, String> {
