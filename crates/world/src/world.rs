@@ -132,8 +132,9 @@ pub struct World<const J: usize> {
     /// Time (s), and what rounding took from it.
     time: f64,
     time_carry: f64,
-    /// Start of the current period (s).
+    /// Start of the current period (s), and how much of it has gone (s).
     period_start: f64,
+    into_period: f64,
     /// Last accepted step of the adaptive stepper (s).
     last_step: f64,
 }
@@ -184,6 +185,7 @@ impl<const J: usize> World<J> {
             time: 0.0,
             time_carry: 0.0,
             period_start: 0.0,
+            into_period: 0.0,
             last_step: 0.01,
         }
     }
@@ -214,11 +216,11 @@ impl<const J: usize> World<J> {
     }
     /// Where everything is and how it moves.
     pub fn state(&self) -> State<f64, J> {
-        self.expand(&self.system, self.time - self.period_start)
+        self.expand(&self.system, self.into_period)
     }
     /// Accelerations and forces now, with the drives as they are.
     pub fn dynamics(&self) -> Dynamics<f64, J> {
-        let t = self.time - self.period_start;
+        let t = self.into_period;
         let state = self.state();
         self.dynamics_at(&kinematics(&self.robot, &state), t, &self.outside_wrench(t))
     }
@@ -250,7 +252,7 @@ impl<const J: usize> World<J> {
         torque_B: Vec3<f64>,
         period: f64,
     ) -> Vec<Saturation> {
-        self.period_start = self.time;
+        (self.period_start, self.into_period) = (self.time, 0.0);
         let mut cut = Vec::new();
         for (j, drive) in drives.iter().enumerate().take(J) {
             self.drives[j] = match (*drive, self.limits[j].effort) {
@@ -295,7 +297,7 @@ impl<const J: usize> World<J> {
         Vec3::from_array(given)
     }
 
-    /// Advance by the period that the commands were set for.
+    /// Advance by `period` (s): the period that the commands were set for, at once or in parts.
     ///
     /// # Errors
     /// If a number is no longer finite.
@@ -306,13 +308,17 @@ impl<const J: usize> World<J> {
                 let h = period / count;
                 let mut done = 0.0;
                 while done < count {
-                    let d = runge_kutta_4(h, |t, d| self.rates(done * h, t, d));
-                    self.accept(&d, (done + 1.0) * h)?;
+                    let t0 = self.into_period + done * h;
+                    let d = runge_kutta_4(h, |t, d| self.rates(t0, t, d));
                     done += 1.0;
+                    // The last step ends where the period does, to the bit.
+                    let gone = if done < count { done * h } else { period };
+                    self.accept(&d, self.into_period + gone)?;
                 }
             }
             Stepper::Adaptive { tolerance } => self.advance_adaptively(period, tolerance)?,
         }
+        self.into_period += period;
         add_with_care(&mut self.time, period, &mut self.time_carry);
         for body in &mut self.free {
             body.step(period);
@@ -321,10 +327,11 @@ impl<const J: usize> World<J> {
     }
 
     fn advance_adaptively(&mut self, period: f64, tolerance: f64) -> Result<(), NonFinite> {
-        let mut t0 = 0.0;
+        let mut t0 = self.into_period;
+        let end = self.into_period + period;
         let mut h = self.last_step.min(period);
-        while t0 < period {
-            let rest = period - t0;
+        while t0 < end {
+            let rest = end - t0;
             let last = h >= rest * (1.0 - 1e-12);
             let trial = if last { rest } else { h };
             let (d, error) = dormand_prince(trial, |t, d| self.rates(t0, t, d));
@@ -332,7 +339,7 @@ impl<const J: usize> World<J> {
             // Order 5 in the step: the usual factor, kept within a fifth and five times.
             let factor = (0.9 * size.powf(-0.2)).clamp(0.2, 5.0);
             if size <= 1.0 || !size.is_finite() {
-                t0 = if last { period } else { t0 + trial };
+                t0 = if last { end } else { t0 + trial };
                 self.accept(&d, t0)?;
                 if !last || factor < 1.0 {
                     self.last_step = trial * factor;
