@@ -1,6 +1,6 @@
 //! A rigid body that floats by itself: a target before it is grasped, or after it is released.
 
-use crate::stepper::{Displacement, runge_kutta_4};
+use crate::stepper::{Displacement, Stepper, equal_steps, runge_kutta_4};
 use wrasse_dynamics::Payload;
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Vec3, rotation_vector_rate, turned_by};
 
@@ -60,6 +60,23 @@ impl FreeBody {
     pub fn kinetic_energy(&self) -> f64 {
         let V = self.twist();
         0.5 * V.power(&(self.matter.M_F_F * V))
+    }
+    /// Advance by `period` (s) in the steps of the world, or in steps that keep its tolerance.
+    pub(crate) fn advance(&mut self, period: f64, stepper: Stepper) {
+        let largest = match stepper {
+            Stepper::Fixed { step } => step,
+            // The error of a step is some thousandths of the turn to the fifth power. The fourth root
+            // is on the safe side, and the same bits on every machine; below 1e-3 rad round-off rules.
+            Stepper::Adaptive { tolerance } => {
+                tolerance.sqrt().sqrt().max(1e-3) / self.twist().angular.norm()
+            }
+        };
+        let (count, h) = equal_steps(period, largest);
+        let mut done = 0.0;
+        while done < count {
+            self.step(h);
+            done += 1.0;
+        }
     }
     /// Advance by `h` (s): momentum stays, the attitude follows it.
     pub fn step(&mut self, h: f64) {

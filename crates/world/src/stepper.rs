@@ -27,6 +27,12 @@ pub enum Stepper {
     },
 }
 
+/// Number (–) and length (s) of the equal steps, at most `step` (s) each, that make up `period` (s).
+pub(crate) fn equal_steps(period: f64, step: f64) -> (f64, f64) {
+    let count = (period / step - 1e-9).ceil().max(1.0);
+    (count, period / count)
+}
+
 /// One classical Runge–Kutta step of order 4: `rates(t, displacement)` with `t` from the start.
 ///
 /// # Source

@@ -2,7 +2,7 @@
 
 use crate::flow::Flow;
 use crate::free_body::FreeBody;
-use crate::stepper::{Displacement, Stepper, dormand_prince, runge_kutta_4};
+use crate::stepper::{Displacement, Stepper, dormand_prince, equal_steps, runge_kutta_4};
 use std::fmt;
 use wrasse_dynamics::{
     BodyId, Dynamics, Frame, Payload, PerBody, Robot, State, kinematics, momentum,
@@ -304,8 +304,7 @@ impl<const J: usize> World<J> {
     pub fn advance(&mut self, period: f64) -> Result<(), NonFinite> {
         match self.stepper {
             Stepper::Fixed { step } => {
-                let count = (period / step - 1e-9).ceil().max(1.0);
-                let h = period / count;
+                let (count, h) = equal_steps(period, step);
                 let mut done = 0.0;
                 while done < count {
                     let t0 = self.into_period + done * h;
@@ -321,7 +320,7 @@ impl<const J: usize> World<J> {
         self.into_period += period;
         add_with_care(&mut self.time, period, &mut self.time_carry);
         for body in &mut self.free {
-            body.step(period);
+            body.advance(period, self.stepper);
         }
         Ok(())
     }
