@@ -26,7 +26,8 @@ impl<const J: usize> World<J> {
     }
 
     /// Make free body `i` part of the body that carries `frame`, where it is now. The joints keep
-    /// their rates; total momentum continues exactly; energy falls by what the grip dissipates.
+    /// their rates; total momentum continues exactly. The energy changes by what the grip dissipates
+    /// and by what the drives do to keep the rates; the change is booked.
     ///
     /// # Errors
     /// If the relative twist exceeds the bounds (rad/s, m/s).

@@ -278,7 +278,10 @@ impl<const J: usize> World<J> {
         cut: &mut Vec<Saturation>,
     ) -> Vec3<f64> {
         let Some(limits) = self.actuator else { return wanted_B };
-        let stored = self.stored_momentum_B().to_array();
+        let h_B = self.stored_momentum_B();
+        // Seen from a base that turns, what is stored turns the other way: ḣ_B = -τ - w × h_B.
+        let carried = self.state().V_NB_B.angular.cross(h_B).to_array();
+        let stored = h_B.to_array();
         let mut given = wanted_B.to_array();
         for axis in 0..3 {
             let wanted = given[axis];
@@ -286,10 +289,11 @@ impl<const J: usize> World<J> {
             if torque != wanted {
                 cut.push(Saturation::ActuatorTorque(axis));
             }
-            // Stored momentum falls by the torque on the base: it may reach ± its limit, not pass it.
-            let lowest = (stored[axis] - limits.momentum_limit) / period;
-            let highest = (stored[axis] + limits.momentum_limit) / period;
-            given[axis] = torque.clamp(lowest.min(0.0), highest.max(0.0));
+            // It may reach ± its limit, not pass it: a full actuator gives back what is carried to it,
+            // even if nothing is asked. (To first order in the turn over the period.)
+            let lowest = (stored[axis] - limits.momentum_limit) / period - carried[axis];
+            let highest = (stored[axis] + limits.momentum_limit) / period - carried[axis];
+            given[axis] = if lowest <= highest { torque.clamp(lowest, highest) } else { torque };
             if given[axis] != torque {
                 cut.push(Saturation::ActuatorMomentum(axis));
             }
