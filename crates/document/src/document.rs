@@ -91,7 +91,7 @@ impl Document {
     /// Every key that `T` does not know, every key that is missing, every value of a wrong type.
     pub fn read<T: DeserializeOwned + JsonSchema>(&self) -> Result<T, Vec<Complaint>> {
         let schema = schema_of::<T>();
-        let complaints = Walk::over(&self.source, &schema, &self.root);
+        let complaints = Walk::over(&self.source, &schema, &self.root).complaints;
         if !complaints.is_empty() {
             return Err(complaints);
         }
@@ -100,6 +100,12 @@ impl Document {
             let one_line = error.to_string().trim().replace('\n', ", ");
             vec![Complaint::error(&self.source, one_line)]
         })
+    }
+    pub(crate) fn root(&self) -> &Table {
+        &self.root
+    }
+    pub(crate) fn root_mut(&mut self) -> &mut Table {
+        &mut self.root
     }
     /// Byte range of the value at a path, or of the nearest table or list above it that is there;
     /// `None` for the document as a whole.

@@ -25,6 +25,7 @@
 
 mod complaint;
 mod document;
+mod in_part;
 mod positioned;
 mod render;
 mod schema_walk;
@@ -32,5 +33,6 @@ mod suggestion;
 
 pub use complaint::{Complaint, Severity, Source};
 pub use document::{Document, Step, schema_of};
+pub use in_part::Part;
 pub use render::render;
 pub use suggestion::closest;

@@ -12,20 +12,18 @@ pub(crate) struct Walk<'a> {
     source: &'a Arc<Source>,
     /// The whole schema, for references into it.
     whole: &'a Schema,
-    complaints: Vec<Complaint>,
+    pub(crate) complaints: Vec<Complaint>,
+    /// Unknown keys, by their place, and the keys that were meant.
+    pub(crate) meant: Vec<(Range<usize>, String)>,
 }
 
 impl<'a> Walk<'a> {
-    /// All complaints about a document, in the order of the file.
-    pub(crate) fn over(
-        source: &'a Arc<Source>,
-        schema: &'a Schema,
-        root: &Table,
-    ) -> Vec<Complaint> {
-        let mut walk = Self { source, whole: schema, complaints: Vec::new() };
+    /// The walk over a whole document: all complaints, in the order of the file.
+    pub(crate) fn over(source: &'a Arc<Source>, schema: &'a Schema, root: &Table) -> Self {
+        let mut walk = Self { source, whole: schema, complaints: Vec::new(), meant: Vec::new() };
         walk.table(schema, "the file", None, root);
         walk.complaints.sort_by_key(|c| c.span.as_ref().map_or(usize::MAX, |s| s.start));
-        walk.complaints
+        walk
     }
     fn complain(&mut self, span: Range<usize>, message: String, label: &str) -> &mut Complaint {
         let last = self.complaints.len();
@@ -193,6 +191,7 @@ impl<'a> Walk<'a> {
         };
         let message = format!("unknown key `{key}` in {name}");
         let span = table[key].key_span.clone();
+        self.meant.extend(meant.map(|meant| (span.clone(), meant.to_owned())));
         self.complain(span, message, "unknown key").help = Some(help);
         meant
     }
@@ -256,7 +255,8 @@ impl<'a> Walk<'a> {
     /// Complaints of the shape that has the fewest.
     fn best_of(&mut self, shapes: &[&'a Schema], name: &str, item: &Positioned) {
         let attempts = shapes.iter().map(|shape| {
-            let mut walk = Self { source: self.source, whole: self.whole, complaints: vec![] };
+            let mut walk =
+                Self { source: self.source, whole: self.whole, complaints: vec![], meant: vec![] };
             walk.shape(shape, name, item);
             walk.complaints
         });

@@ -8,6 +8,7 @@ mod limits_passed;
 mod mission;
 mod observe;
 mod outcome;
+mod phase_format;
 mod picture;
 mod plan;
 mod quantity;

@@ -1,7 +1,8 @@
 //! A mission file to a checked mission, with all complaints at once.
 
-use crate::format::{MissionFile, PhaseFile};
+use crate::format::MissionFile;
 use crate::mission::{Case, Mission};
+use crate::phase_format::PhaseFile;
 use crate::quantity::quantities;
 use crate::read_payload::payloads;
 use crate::read_phase::phase;
@@ -51,24 +52,67 @@ impl Reading<'_> {
         }
         found
     }
+    /// Whether the file says something at a path.
+    pub(crate) fn is_there(&self, path: &[Step<'_>]) -> bool {
+        let Some((Step::Key(last), above)) = path.split_last() else { return false };
+        self.document.keys(above).contains(last)
+    }
+    /// A joint's position in the unit of files.
+    pub(crate) fn shown(&self, j: usize, x: f64) -> String {
+        match self.vehicle.robot.joint(j).kind {
+            JointKind::Revolute => format!("{} deg", rounded(x.to_degrees())),
+            JointKind::Prismatic => format!("{} m", rounded(x)),
+        }
+    }
     /// A number that must be above zero.
     pub(crate) fn positive(&mut self, path: &[Step<'_>], x: f64) -> f64 {
         if x > 0.0 {
             return x;
         }
-        self.error(path, format!("must be above zero, found {x}"), "");
+        self.error(path, format!("{} must be above zero, found {x}", key(path)), "");
         1.0
+    }
+    /// A number that must be from `low` to `high`, for the reason given.
+    pub(crate) fn within(
+        &mut self,
+        path: &[Step<'_>],
+        x: f64,
+        (low, high): (f64, f64),
+        why: &str,
+    ) -> f64 {
+        if (low..=high).contains(&x) {
+            return x;
+        }
+        let message = format!("{} must be from {low} to {high}, found {x}", key(path));
+        self.error(path, message, why);
+        low
     }
     /// A number that must not be below zero.
     pub(crate) fn not_negative(&mut self, path: &[Step<'_>], x: f64) -> f64 {
         if x >= 0.0 {
             return x;
         }
-        self.error(path, format!("must not be below zero, found {x}"), "");
+        self.error(path, format!("{} must not be below zero, found {x}", key(path)), "");
         0.0
     }
 }
 
+/// Six decimals, as far as they say something.
+fn rounded(x: f64) -> f64 {
+    (x * 1e6).round() / 1e6
+}
+
+/// How to speak of the value at a path: by its key, or its place in the list of that key.
+fn key(path: &[Step<'_>]) -> String {
+    match path {
+        [.., Step::Key(key)] => format!("`{key}`"),
+        [.., Step::Key(key), Step::Index(i)] => format!("value {} of `{key}`", i + 1),
+        _ => "the value".into(),
+    }
+}
+
+/// Fewest and most instants in a drawing.
+const SNAPSHOTS: (f64, f64) = (2.0, 40.0);
 /// Most cases that one mission may compare.
 const CASES: usize = 1000;
 
@@ -81,16 +125,17 @@ pub fn read_mission(
     text: impl Into<String>,
 ) -> Result<Mission, Vec<Complaint>> {
     let document = Document::parse(path, text)?;
-    let file: MissionFile = document.read()?;
+    let part = document.read_in_part::<MissionFile>();
+    let Some(file) = part.value else { return Err(part.complaints) };
     let mut complaints = vec![];
     let mut cases = vec![];
-    let combinations = combinations(&file, &document, &mut complaints);
+    let combinations = combinations(&file, &part.document, &mut complaints);
     for rows in &combinations {
-        let mut varied = document.clone();
-        for (axis, &row) in rows.iter().enumerate() {
+        let mut varied = part.document.clone();
+        for &(axis, row) in rows {
             varied = varied.overlaid(at!["compare", axis, "row", row, "set"], &[]);
         }
-        let labels = rows.iter().enumerate().map(|(axis, &row)| {
+        let labels = rows.iter().map(|&(axis, row)| {
             (file.compare[axis].axis.clone(), file.compare[axis].row[row].name.clone())
         });
         match read_case(&varied, labels.collect()) {
@@ -98,6 +143,7 @@ pub fn read_mission(
             Err(found) => complaints.extend(found),
         }
     }
+    let complaints = document.beside(part.complaints, complaints);
     if complaints.iter().any(|c| c.severity == Severity::Error) {
         // What is wrong with the common part is wrong in every case: say it once.
         let mut once: Vec<Complaint> = vec![];
@@ -119,12 +165,12 @@ pub fn read_mission(
     })
 }
 
-/// Every combination of one row from each axis, the last axis fastest.
+/// Every combination of one row from each axis, the last axis fastest: pairs of axis and row.
 fn combinations(
     file: &MissionFile,
     document: &Document,
     complaints: &mut Vec<Complaint>,
-) -> Vec<Vec<usize>> {
+) -> Vec<Vec<(usize, usize)>> {
     let fits = file.name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_');
     if file.name.is_empty() || !fits {
         let message = format!("the name becomes a folder: found {:?}", file.name);
@@ -133,23 +179,51 @@ fn combinations(
     }
     let mut all = vec![vec![]];
     for (i, axis) in file.compare.iter().enumerate() {
+        check_axis(file, i, document, complaints);
         if axis.row.is_empty() {
-            complaints.push(document.error(at!["compare", i], "an axis without rows", "here"));
+            continue;
         }
         let rows = 0..axis.row.len();
         all = all
             .into_iter()
-            .flat_map(|before: Vec<usize>| {
-                rows.clone().map(move |row| [before.clone(), vec![row]].concat())
+            .flat_map(|before: Vec<(usize, usize)>| {
+                rows.clone().map(move |row| [before.clone(), vec![(i, row)]].concat())
             })
             .collect();
         if all.len() > CASES {
             let message = format!("{} cases, at most {CASES} can be compared", all.len());
-            complaints.push(document.error(at!["compare", i], message, "here"));
+            let help = "split the comparison over several missions";
+            complaints.push(document.error(at!["compare", i], message, "here").with_help(help));
             return vec![];
         }
     }
     all
+}
+
+/// An axis has rows, and names tell axes and rows apart.
+fn check_axis(file: &MissionFile, i: usize, document: &Document, complaints: &mut Vec<Complaint>) {
+    let axis = &file.compare[i];
+    let mut error = |path: &[Step<'_>], message: String, help: &str| {
+        complaints.push(document.error(path, message, "here").with_help(help));
+    };
+    if axis.row.is_empty() {
+        let message = format!("axis {:?} has no rows: nothing is compared", axis.axis);
+        error(at!["compare", i], message, "add a [[compare.row]] for each variant");
+    }
+    if file.compare[..i].iter().any(|other| other.axis == axis.axis) {
+        let message = format!("a second axis called {:?}", axis.axis);
+        error(at!["compare", i, "axis"], message, "axes are told apart by their names");
+    }
+    for (k, row) in axis.row.iter().enumerate() {
+        if axis.row[..k].iter().any(|other| other.name == row.name) {
+            let message = format!("a second row called {:?}", row.name);
+            error(
+                at!["compare", i, "row", k, "name"],
+                message,
+                "rows are told apart by their names",
+            );
+        }
+    }
 }
 
 fn read_case(document: &Document, labels: Vec<(String, String)>) -> Result<Case, Vec<Complaint>> {
@@ -176,11 +250,14 @@ fn read_case(document: &Document, labels: Vec<(String, String)>) -> Result<Case,
     for (i, text) in file.requirements.iter().enumerate() {
         match Requirement::parse(text, &quantities, &names) {
             Ok(requirement) => requirements.push(requirement),
-            Err(bad) => r.complaints.push(complaint_within(document, i, bad)),
+            Err(bad) => r.complaints.push(complaint_within(document, i, text, bad)),
         }
     }
     let torque = torque_joints(r, &file);
     let output_rate = r.positive(at!["output", "rate_hz"], file.output.rate_hz);
+    let why = "the first and the last instant are always drawn, and more do not fit in a picture";
+    let count = f64::from(file.output.snapshots);
+    r.within(at!["output", "snapshots"], count, SNAPSHOTS, why);
     let stepper = stepper(r, &file);
     let complaints = reading.complaints;
     if complaints.iter().any(|c| c.severity == Severity::Error) {
@@ -200,7 +277,7 @@ fn read_case(document: &Document, labels: Vec<(String, String)>) -> Result<Case,
         requirements,
         quantities,
         output_rate,
-        snapshots: file.output.snapshots.clamp(2, 40),
+        snapshots: file.output.snapshots,
     })
 }
 
@@ -221,7 +298,7 @@ fn check_phase_list(r: &mut Reading<'_>, phases: &[PhaseFile]) {
     }
     if phases.len() > PHASES {
         let message = format!("{} phases, at most {PHASES} fit", phases.len());
-        r.error(at!["phase", PHASES], message, "");
+        r.error(at!["phase", PHASES], message, "split the mission in two");
     }
     for (i, phase) in phases.iter().enumerate() {
         if phases[..i].iter().any(|p| p.name == phase.name) {
@@ -235,16 +312,15 @@ fn check_phase_list(r: &mut Reading<'_>, phases: &[PhaseFile]) {
 fn complaint_within(
     document: &Document,
     i: usize,
+    requirement: &str,
     bad: crate::requirement::BadRequirement,
 ) -> Complaint {
     let whole = document.error(at!["requirements", i], bad.message, "here").with_help(bad.help);
     // Inside the quotes, if the text stands there as it is.
     let Some(span) = whole.span.clone() else { return whole };
     let text = &whole.source.text;
-    let inside = span.start + 1 + bad.at.start..span.start + 1 + bad.at.end;
-    let fits = inside.end < span.end
-        && text.is_char_boundary(inside.start)
-        && text.is_char_boundary(inside.end)
-        && !bad.at.is_empty();
-    if fits { whole.at(inside, "here") } else { whole }
+    let first = span.start + 1;
+    let as_it_is = text.get(first..first + requirement.len()) == Some(requirement);
+    let inside = first + bad.at.start..first + bad.at.end;
+    if as_it_is && !bad.at.is_empty() { whole.at(inside, "here") } else { whole }
 }

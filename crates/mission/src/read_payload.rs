@@ -28,37 +28,67 @@ pub(crate) fn payloads(
 fn matter(r: &mut Reading<'_>, name: &str, p: &PayloadFile) -> Payload<f64> {
     let path = |key| [Step::Key("payload"), Step::Key(name), Step::Key(key)];
     let mass = r.positive(&path("mass_kg"), p.mass_kg);
-    let [xy, xz, yz] = p.products_kgm2;
     let I = match (p.uniform_box_m, p.inertia_kgm2) {
-        (Some(edges), None) => {
-            let [a, b, c] = edges.map(|x| x * x * mass / 12.0);
-            Sym3 { xx: b + c, yy: a + c, zz: a + b, xy: 0.0, xz: 0.0, yz: 0.0 }
-        }
-        (None, Some([xx, yy, zz])) => Sym3 { xx, yy, zz, xy, xz, yz },
-        _ => {
-            let message = format!("payload {name} needs exactly one way to its inertia");
-            r.error(at!["payload", name], message, "give uniform_box_m, or inertia_kgm2");
+        (Some(edges), None) => box_inertia(r, name, mass, edges, p.products_kgm2),
+        (None, Some(moments)) => given_inertia(r, &path("inertia_kgm2"), moments, p.products_kgm2),
+        (both, _) => {
+            let found = if both.is_some() { "says its inertia twice" } else { "has no inertia" };
+            let help = "give uniform_box_m, from which it follows, or inertia_kgm2";
+            r.error(at!["payload", name], format!("payload {name} {found}"), help);
             Sym3::diagonal(1.0, 1.0, 1.0)
         }
     };
-    let mut moments = principal_moments(I);
-    moments.sort_by(f64::total_cmp);
-    let [a, b, c] = moments;
+    Payload::from_central(mass, vector(p.centre_of_mass_m), I)
+}
+
+/// Inertia of a uniform box.
+fn box_inertia(
+    r: &mut Reading<'_>,
+    name: &str,
+    mass: f64,
+    mut edges: [f64; 3],
+    products: [f64; 3],
+) -> Sym3<f64> {
+    for (i, edge) in edges.iter_mut().enumerate() {
+        *edge = r.positive(at!["payload", name, "uniform_box_m", i], *edge);
+    }
+    if products != [0.0; 3] {
+        let message = format!("payload {name} is a uniform box: its products of inertia are zero");
+        let help = "leave products_kgm2 out, or give inertia_kgm2 in place of uniform_box_m";
+        r.error(at!["payload", name, "products_kgm2"], message, help);
+    }
+    let [a, b, c] = edges.map(|x| x * x * mass / 12.0);
+    Sym3 { xx: b + c, yy: a + c, zz: a + b, xy: 0.0, xz: 0.0, yz: 0.0 }
+}
+
+/// Inertia as it is given; an error with the numbers if no body can have it.
+fn given_inertia(
+    r: &mut Reading<'_>,
+    path: &[Step<'_>],
+    [xx, yy, zz]: [f64; 3],
+    [xy, xz, yz]: [f64; 3],
+) -> Sym3<f64> {
+    let I = Sym3 { xx, yy, zz, xy, xz, yz };
+    let [a, b, c] = principal_moments(I);
     if a <= 0.0 || a + b < c * (1.0 - 1e-9) {
         let message = format!(
             "an inertia with principal moments {a:.6}, {b:.6}, {c:.6} kg·m² is not physical: each \
              must be above zero, and no larger than the sum of the others"
         );
-        r.error(&path("inertia_kgm2"), message, "");
+        let help = "is it about the centre of mass, xx yy zz first, and in kg·m²?";
+        r.error(path, message, help);
     }
-    Payload::from_central(mass, vector(p.centre_of_mass_m), I)
+    I
 }
 
+/// Principal moments, smallest first.
 fn principal_moments(I: Sym3<f64>) -> [f64; 3] {
     let rows = I.to_mat3().rows.map(wrasse_spatial::Vec3::to_array);
     let matrix = nalgebra::Matrix3::from_fn(|i, k| rows[i][k]);
     let found = matrix.symmetric_eigenvalues();
-    [found[0], found[1], found[2]]
+    let mut moments = [found[0], found[1], found[2]];
+    moments.sort_by(f64::total_cmp);
+    moments
 }
 
 fn beginning(
@@ -72,8 +102,10 @@ fn beginning(
             PayloadStart::Held(tool(r, at!["payload", name, "held_by"], Some(holder)))
         }
         (None, Some(free)) => free_start(r, name, free, start),
-        _ => {
-            let message = format!("payload {name} is either held or free at the start");
+        (both, _) => {
+            let found = if both.is_some() { "both" } else { "neither" };
+            let message =
+                format!("payload {name} is either held or free at the start, found {found}");
             let help = "write held_by = \"tool\", or a table free = { … }";
             r.error(at!["payload", name], message, help);
             PayloadStart::Free(Pose::identity(), SpatialVelocity::zero())

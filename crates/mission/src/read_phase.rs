@@ -1,12 +1,13 @@
 //! One phase out of a mission file.
 
-use crate::format::{
-    ArmLawFile, AxesFile, GraspFile, JointLimitsFile, KeepFile, MissionFile, MoveJointsFile,
-    MoveToolFile, PhaseFile, ShapeFile, ToolLimitsFile, ToolPoseFile,
-};
+use crate::format::{ArmLawFile, MissionFile};
 use crate::mission::PhaseCase;
+use crate::phase_format::{
+    AxesFile, GraspFile, JointLimitsFile, KeepFile, MoveJointsFile, MoveToolFile, PhaseFile,
+    ShapeFile, ToolLimitsFile, ToolPoseFile,
+};
 use crate::read_mission::Reading;
-use crate::read_setup::{attitude, axes, by_joint, posture, radians, vector};
+use crate::read_setup::{attitude, axes, by_joint, place_of_position, posture, radians, vector};
 use wrasse_document::{Step, at};
 use wrasse_dynamics::JointKind;
 use wrasse_flight::trajectory::{MotionLimits, ProfileShape};
@@ -24,15 +25,18 @@ pub(crate) fn phase(
 ) -> Option<PhaseCase> {
     let mut grasp_bounds = (0.0, 0.0);
     let things = [
-        file.move_tool.is_some(),
-        file.move_joints.is_some(),
-        file.hold.is_some(),
-        file.grasp.is_some(),
-        file.release.is_some(),
+        (file.move_tool.is_some(), "move_tool"),
+        (file.move_joints.is_some(), "move_joints"),
+        (file.hold.is_some(), "hold"),
+        (file.grasp.is_some(), "grasp"),
+        (file.release.is_some(), "release"),
     ];
-    if things.iter().filter(|&&t| t).count() != 1 {
-        let message = format!("phase {:?} must say exactly one thing to do", file.name);
-        let help = "one of move_tool, move_joints, hold, grasp, release";
+    let said: Vec<&str> = things.iter().filter(|t| t.0).map(|t| t.1).collect();
+    if said.len() != 1 {
+        let found = if said.is_empty() { "none".into() } else { said.join(" and ") };
+        let message =
+            format!("phase {:?} must say exactly one thing to do, found {found}", file.name);
+        let help = "one of move_tool, move_joints, hold, grasp, release; write a phase for each";
         r.error(at!["phase", i], message, help);
         return None;
     }
@@ -41,7 +45,7 @@ pub(crate) fn phase(
     } else if let Some(m) = &file.move_joints {
         move_joints(r, i, m, mission)?
     } else if let Some(hold) = &file.hold {
-        let duration = r.positive(at!["phase", i, "hold", "duration_s"], hold.duration_s);
+        let duration = duration(r, at!["phase", i, "hold", "duration_s"], hold.duration_s);
         let what = match hold.keep {
             KeepFile::Joints => Held::Joints,
             KeepFile::Tool => Held::Tool,
@@ -88,15 +92,28 @@ fn move_tool(r: &mut Reading<'_>, i: usize, m: &MoveToolFile) -> Option<Phase<f6
         }
     };
     let timing = match (m.duration_s, &m.limits) {
-        (Some(duration), None) => Timing::Duration(r.positive(&path("duration_s"), duration)),
+        (Some(given), None) => Timing::Duration(duration(r, &path("duration_s"), given)),
         (None, Some(limits)) => tool_limits(r, i, limits),
-        _ => return no_timing(r, at!["phase", i, "move_tool"]),
+        (given, _) => return no_timing(r, at!["phase", i, "move_tool"], given),
     };
     Some(Phase::MoveTool { target, axes: axes(m.axes), timing })
 }
 
-fn no_timing(r: &mut Reading<'_>, path: &[Step<'_>]) -> Option<Phase<f64, JOINTS>> {
-    let message = "a move takes either a duration or limits".into();
+/// Longest phase (s): ten days.
+const LONGEST: f64 = 864_000.0;
+
+fn duration(r: &mut Reading<'_>, path: &[Step<'_>], given: f64) -> f64 {
+    let given = r.positive(path, given);
+    r.within(path, given, (0.0, LONGEST), "no phase lasts longer than ten days")
+}
+
+fn no_timing(
+    r: &mut Reading<'_>,
+    path: &[Step<'_>],
+    duration: Option<f64>,
+) -> Option<Phase<f64, JOINTS>> {
+    let found = if duration.is_some() { "both" } else { "neither" };
+    let message = format!("a move takes either a duration or limits, found {found}");
     r.error(path, message, "give duration_s, or limits = { … }");
     None
 }
@@ -137,7 +154,7 @@ fn move_joints(
         (None, true) => {
             let mut to = [None; JOINTS];
             if let Some(name) = &m.to_posture {
-                to = posture(r, &path("to_posture"), name).map(Some);
+                to = posture(r, &path("to_posture"), name).map_or(to, |q| q.map(Some));
             }
             by_joint(r, &path("to_deg"), &m.to_deg, JointKind::Revolute, |j, x| to[j] = Some(x));
             by_joint(r, &path("to_m"), &m.to_m, JointKind::Prismatic, |j, x| to[j] = Some(x));
@@ -152,9 +169,9 @@ fn move_joints(
         }
     };
     let timing = match (m.duration_s, &m.limits) {
-        (Some(duration), None) => JointTiming::Duration(r.positive(&path("duration_s"), duration)),
+        (Some(given), None) => JointTiming::Duration(duration(r, &path("duration_s"), given)),
         (None, Some(limits)) => joint_limits(r, i, limits),
-        _ => return no_timing(r, at!["phase", i, "move_joints"]),
+        (given, _) => return no_timing(r, at!["phase", i, "move_joints"], given),
     };
     Some(Phase::MoveJoints { to, timing })
 }
@@ -183,11 +200,13 @@ fn check_travel(r: &mut Reading<'_>, i: usize, to: &[Option<f64>; JOINTS]) {
         let (Some(q), Some((lower, upper))) = (to[j], r.vehicle.limits[j].travel) else { continue };
         if !(lower..=upper).contains(&q) {
             let name = &r.vehicle.joint_names[j];
-            let message = format!(
-                "joint {name} shall go to {q:.4}, outside its travel from {lower:.4} to {upper:.4} \
-                 (rad or m)"
-            );
-            r.error(at!["phase", i, "move_joints"], message, "");
+            let [q, lower, upper] = [q, lower, upper].map(|x| r.shown(j, x));
+            let message =
+                format!("joint {name} shall go to {q}, outside its travel from {lower} to {upper}");
+            let above = at!["phase", i, "move_joints"];
+            let place = place_of_position(r, above, ["to_deg", "to_m", "to_posture"], name);
+            let help = "choose a position within the travel";
+            r.error(&place, message, help);
         }
     }
 }

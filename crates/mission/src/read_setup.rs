@@ -1,9 +1,10 @@
 //! The start, the world and the laws, out of a mission file.
 
 use crate::format::{
-    ArmLawFile, AttitudeFile, AxesFile, BaseFile, FeedforwardFile, JointsFile, MeasurementFile,
-    MissionFile, TaskFile,
+    ArmLawFile, AttitudeFile, BaseFile, FeedforwardFile, JointsFile, MeasurementFile, MissionFile,
+    TaskFile,
 };
+use crate::phase_format::AxesFile;
 use crate::read_mission::Reading;
 use std::collections::BTreeMap;
 use wrasse_document::{Step, at};
@@ -27,7 +28,11 @@ pub(crate) fn attitude(
     let norm = quat.norm();
     if (norm - 1.0).abs() > 1e-6 {
         let message = format!("an attitude is a unit quaternion, found one of length {norm}");
-        r.error(path, message, "divide all four components by the length");
+        let help = match norm {
+            0.0 => "no rotation is { w = 1.0, x = 0.0, y = 0.0, z = 0.0 }",
+            _ => "divide all four components by the length",
+        };
+        r.error(path, message, help);
         return Quat::identity();
     }
     quat.normalized()
@@ -66,54 +71,78 @@ pub(crate) fn by_joint(
         if r.vehicle.robot.joint(j).kind == kind {
             put(j, if kind == JointKind::Revolute { value.to_radians() } else { value });
         } else {
-            let (is, unit) = match kind {
-                JointKind::Revolute => ("slides", "m"),
-                JointKind::Prismatic => ("turns", "deg"),
+            let key = path.last().map(ToString::to_string).unwrap_or_default();
+            let (is, unit, other) = match kind {
+                JointKind::Revolute => ("slides", "deg", key.replace("_deg", "_m")),
+                JointKind::Prismatic => ("turns", "m", key.replace("_m", "_deg")),
             };
-            r.error(&at_name, format!("joint {name} {is}"), &format!("give it in {unit}"));
+            let message = format!("joint {name} {is}, found a value in {unit}");
+            r.error(&at_name, message, &format!("write it in `{other}`"));
         }
     }
 }
 
 /// Positions of a posture that the vehicle names.
-pub(crate) fn posture(r: &mut Reading<'_>, path: &[Step<'_>], name: &str) -> [f64; JOINTS] {
+pub(crate) fn posture(r: &mut Reading<'_>, path: &[Step<'_>], name: &str) -> Option<[f64; JOINTS]> {
     let names: Vec<String> = r.vehicle.postures.iter().map(|p| p.name.clone()).collect();
+    let i = r.find(path, "posture", name, &names)?;
     let mut q = [0.0; JOINTS];
-    if let Some(i) = r.find(path, "posture", name, &names) {
-        q.iter_mut().zip(&r.vehicle.postures[i].q).for_each(|(to, from)| *to = *from);
-    }
-    q
+    q.iter_mut().zip(&r.vehicle.postures[i].q).for_each(|(to, from)| *to = *from);
+    Some(q)
 }
 
 /// State at the start.
 pub(crate) fn start(r: &mut Reading<'_>, file: &MissionFile) -> State<f64, JOINTS> {
     let i = &file.initial;
     let mut state = State::default();
-    if let Some(name) = &i.posture {
-        state.q = posture(r, at!["initial", "posture"], name);
+    let mut known = [i.posture.is_none(); JOINTS];
+    if let Some(q) = i.posture.as_ref().and_then(|p| posture(r, at!["initial", "posture"], p)) {
+        (state.q, known) = (q, [true; JOINTS]);
     }
     let (turning, sliding) = (JointKind::Revolute, JointKind::Prismatic);
     let path = |key| [Step::Key("initial"), Step::Key(key)];
     let (q, v) = (&mut state.q, &mut state.v);
-    by_joint(r, &path("joints_deg"), &i.joints_deg, turning, |j, x| q[j] = x);
-    by_joint(r, &path("joints_m"), &i.joints_m, sliding, |j, x| q[j] = x);
+    let mut put = |j, x| (q[j], known[j]) = (x, true);
+    by_joint(r, &path("joints_deg"), &i.joints_deg, turning, &mut put);
+    by_joint(r, &path("joints_m"), &i.joints_m, sliding, &mut put);
     by_joint(r, &path("joint_rates_deg_s"), &i.joint_rates_deg_s, turning, |j, x| v[j] = x);
     by_joint(r, &path("joint_rates_m_s"), &i.joint_rates_m_s, sliding, |j, x| v[j] = x);
     let quat_NB = attitude(r, &path("attitude"), i.attitude);
     state.X_NB = Pose::from_quat(quat_NB, vector(i.position_m));
     state.V_NB_B = SpatialVelocity::new(radians(i.angular_velocity_deg_s), vector(i.velocity_m_s));
-    for j in r.vehicle.robot.joints() {
-        let Some((lower, upper)) = r.vehicle.limits[j].travel else { continue };
-        if !(lower..=upper).contains(&state.q[j]) {
-            let name = &r.vehicle.joint_names[j];
-            let message = format!(
-                "joint {name} starts at {:.4}, outside its travel from {lower:.4} to {upper:.4} (rad or m)",
-                state.q[j]
-            );
-            r.error(&path("joints_deg"), message, "");
-        }
+    // A joint whose posture is not known is not said to be anywhere.
+    for j in r.vehicle.robot.joints().filter(|&j| known[j]) {
+        check_start(r, j, state.q[j]);
     }
     state
+}
+
+/// A joint starts within its travel.
+fn check_start(r: &mut Reading<'_>, j: usize, q: f64) {
+    let Some((lower, upper)) = r.vehicle.limits[j].travel else { return };
+    if (lower..=upper).contains(&q) {
+        return;
+    }
+    let name = &r.vehicle.joint_names[j];
+    let [q, lower, upper] = [q, lower, upper].map(|x| r.shown(j, x));
+    let message = format!("joint {name} starts at {q}, outside its travel from {lower} to {upper}");
+    let place = place_of_position(r, at!["initial"], ["joints_deg", "joints_m", "posture"], name);
+    let help = "give it a position within the travel in initial.joints_deg or initial.joints_m";
+    r.error(&place, message, help);
+}
+
+/// Where a joint's position is written: under its name in one of the first two tables, or else by the
+/// posture.
+pub(crate) fn place_of_position<'p>(
+    r: &Reading<'_>,
+    above: &[Step<'p>],
+    keys: [&'p str; 3],
+    name: &'p str,
+) -> Vec<Step<'p>> {
+    let [turning, sliding, posture] = keys;
+    let by_name = [turning, sliding].map(|key| [above, at![key, name]].concat());
+    let written = by_name.into_iter().find(|path| r.is_there(path));
+    written.unwrap_or_else(|| [above, at![posture]].concat())
 }
 
 /// What becomes of the base's attitude.
@@ -143,13 +172,19 @@ pub(crate) fn base_attitude(
     }
 }
 
+/// Shortest and longest step (s), least and most tolerance of the integrators.
+const STEPS: (f64, f64) = (1e-6, 1e3);
+const TOLERANCES: (f64, f64) = (1e-14, 1.0);
+
 pub(crate) fn stepper(r: &mut Reading<'_>, file: &MissionFile) -> Stepper {
-    let step = r.positive(at!["world", "step_s"], file.world.step_s);
+    let step = r.within(at!["world", "step_s"], file.world.step_s, STEPS, "a usual step is 0.005");
     match file.world.adaptive_tolerance {
         None => Stepper::Fixed { step },
-        Some(tolerance) => Stepper::Adaptive {
-            tolerance: r.positive(at!["world", "adaptive_tolerance"], tolerance),
-        },
+        Some(tolerance) => {
+            let path = at!["world", "adaptive_tolerance"];
+            let why = "a usual tolerance is 1e-9; below 1e-14 there is only rounding";
+            Stepper::Adaptive { tolerance: r.within(path, tolerance, TOLERANCES, why) }
+        }
     }
 }
 
@@ -179,7 +214,8 @@ pub(crate) fn setup(r: &mut Reading<'_>, file: &MissionFile) -> Setup<f64, JOINT
         *to = from.rate.unwrap_or(UNLIMITED);
     }
     if let Some(wanted) = &c.redundancy {
-        joints.posture = posture(r, at!["control", "redundancy", "posture"], &wanted.posture);
+        let path = at!["control", "redundancy", "posture"];
+        joints.posture = posture(r, path, &wanted.posture).unwrap_or_default();
         joints.gain = r.positive(at!["control", "redundancy", "gain_per_s"], wanted.gain_per_s);
     }
     let mut limits = [JointLimits::default(); JOINTS];
@@ -216,10 +252,13 @@ pub(crate) fn setup(r: &mut Reading<'_>, file: &MissionFile) -> Setup<f64, JOINT
     }
 }
 
+/// Lowest and highest control rate (Hz).
+const RATES: (f64, f64) = (0.01, 1e4);
+
 fn tuning(r: &mut Reading<'_>, c: &crate::format::ControlFile) -> Tuning<f64> {
     let path = |key| [Step::Key("control"), Step::Key(key)];
     Tuning {
-        period: 1.0 / r.positive(&path("rate_hz"), c.rate_hz),
+        period: 1.0 / r.within(&path("rate_hz"), c.rate_hz, RATES, "a usual rate is 100"),
         tool_gain: r.not_negative(&path("tool_gain_per_s"), c.tool_gain_per_s),
         joint_bandwidth: r.not_negative(&path("joint_bandwidth_rad_s"), c.joint_bandwidth_rad_s),
         joint_damping: r.not_negative(&path("joint_damping_ratio"), c.joint_damping_ratio),

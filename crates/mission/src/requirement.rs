@@ -64,40 +64,39 @@ impl Requirement {
         phases: &[String],
     ) -> Result<Self, BadRequirement> {
         let bad = |message: String, word: &str, help: String| {
-            let start = text.find(word).unwrap_or(0);
+            // Words are parts of the text: where they begin is where they stand.
+            let start = (word.as_ptr() as usize).saturating_sub(text.as_ptr() as usize);
             BadRequirement { message, at: start..start + word.len(), help }
         };
         let mut words = text.split_whitespace();
-        let mut next = |what: &str| {
-            words.next().ok_or_else(|| bad(format!("the {what} is missing"), text, FORM.into()))
-        };
-        let (metric, symbol) = (next("metric")?, next("comparison")?);
-        let (number, unit) = (next("limit")?, next("unit")?);
+        let missing = |what: &str| bad(format!("the {what} is missing"), text, FORM.into());
+        let metric = words.next().ok_or_else(|| missing("metric"))?;
         let (quantity, statistic) = find_metric(metric, quantities, &bad)?;
+        let symbol = words.next().ok_or_else(|| missing("comparison"))?;
         let comparison = Comparison::ALL.iter().find(|(s, _)| *s == symbol).map(|(_, c)| *c);
         let comparison = comparison.ok_or_else(|| {
             bad(format!("{symbol} is not a comparison"), symbol, "one of <=, <, >=, >".into())
         })?;
+        let number = words.next().ok_or_else(|| missing("limit"))?;
         let limit = number
             .parse::<f64>()
             .ok()
             .filter(|x| x.is_finite())
             .ok_or_else(|| bad(format!("{number} is not a number"), number, FORM.into()))?;
         let kind = quantities[quantity].kind;
+        let units = format!("one of {}", kind.units().join(", "));
+        let unit = words.next().ok_or_else(|| {
+            bad(format!("the unit of {number} is missing"), number, units.clone())
+        })?;
         let scale = kind.scale_of(unit).ok_or_else(|| {
             let wrong = if is_unit(unit) { "does not measure" } else { "is no unit of" };
             let message = format!("{unit} {wrong} {}", quantities[quantity].name);
-            bad(message, unit, format!("one of {}", kind.units().join(", ")))
+            bad(message, unit, units)
         })?;
         let phase = match words.next() {
             None => None,
-            Some("during") => {
-                let name = words.next().unwrap_or_default();
-                let found = phases.iter().position(|p| p == name);
-                Some(found.ok_or_else(|| {
-                    let message = format!("there is no phase called {name:?}");
-                    bad(message, name, format!("one of {}", phases.join(", ")))
-                })?)
+            Some(during @ "during") => {
+                Some(find_phase(behind(text, during), during, phases, &bad)?)
             }
             Some(word) => {
                 return Err(bad(format!("{word} is not understood here"), word, FORM.into()));
@@ -142,6 +141,32 @@ impl Requirement {
     }
 }
 
+/// What stands behind a word of a text.
+fn behind<'t>(text: &'t str, word: &'t str) -> &'t str {
+    let end = (word.as_ptr() as usize + word.len()).saturating_sub(text.as_ptr() as usize);
+    text.get(end..).unwrap_or_default().trim()
+}
+
+/// The phase of a name, which may have spaces.
+fn find_phase(
+    name: &str,
+    during: &str,
+    phases: &[String],
+    bad: &dyn Fn(String, &str, String) -> BadRequirement,
+) -> Result<usize, BadRequirement> {
+    let names = || format!("one of {}", phases.join(", "));
+    if name.is_empty() {
+        return Err(bad("the phase is missing behind during".into(), during, names()));
+    }
+    phases.iter().position(|p| p == name).ok_or_else(|| {
+        let help = match closest(name, phases.iter().map(String::as_str)) {
+            Some(close) => format!("did you mean {close}?"),
+            None => names(),
+        };
+        bad(format!("there is no phase called {name:?}"), name, help)
+    })
+}
+
 /// The quantity and statistic that a metric names.
 fn find_metric(
     metric: &str,
@@ -155,13 +180,37 @@ fn find_metric(
             return Ok((i, statistic));
         }
     }
+    if let Some(quantity) = quantities.iter().find(|q| q.name == metric) {
+        let message = format!("which value of {metric} is missing");
+        return Err(bad(message, metric, format!("write {}", with_statistics(quantity))));
+    }
     let names: Vec<String> = quantities
         .iter()
         .flat_map(|q| q.statistics.iter().map(move |s| format!("{}.{}", q.name, s.name())))
         .collect();
     let help = match closest(metric, names.iter().map(String::as_str)) {
         Some(name) => format!("did you mean {name}?"),
-        None => format!("the metrics are {}", names.join(", ")),
+        None => format!("the metrics are {}", all_metrics(quantities).join("; ")),
     };
     Err(bad(format!("there is no metric called {metric}"), metric, help))
+}
+
+/// `tool.speed.max or .final`
+fn with_statistics(quantity: &Quantity) -> String {
+    let statistics: Vec<&str> = quantity.statistics.iter().map(|s| s.name()).collect();
+    format!("{}.{}", quantity.name, statistics.join(" or ."))
+}
+
+/// All metrics, those of joints once for all joints.
+fn all_metrics(quantities: &[Quantity]) -> Vec<String> {
+    let mut all: Vec<String> = vec![];
+    for quantity in quantities {
+        let joint = quantity.name.strip_prefix("joint.").and_then(|rest| rest.rsplit_once('.'));
+        let written = with_statistics(quantity);
+        let written = joint.map_or(written.clone(), |(name, _)| written.replacen(name, "NAME", 1));
+        if !all.contains(&written) {
+            all.push(written);
+        }
+    }
+    all
 }

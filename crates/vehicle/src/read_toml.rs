@@ -19,12 +19,25 @@ use wrasse_spatial::{Pose, vec3};
 /// The vehicle of a TOML file.
 ///
 /// # Errors
-/// All that is wrong with the shape of the file; or, if that is right, all that is wrong with what
-/// it says.
+/// All that is wrong with the shape of the file, and all that is wrong with what the rest says.
 pub(crate) fn read_toml(source: &Arc<Source>) -> Result<Vehicle, Vec<Complaint>> {
     let document = Document::of(source)?;
-    let file: VehicleFile = document.read()?;
-    let mut reading = Reading::new(&document);
+    let part = document.read_in_part::<VehicleFile>();
+    let Some(file) = part.value else { return Err(part.complaints) };
+    match vehicle_of(source, &part.document, file) {
+        Ok(vehicle) if part.complaints.is_empty() => Ok(vehicle),
+        Ok(_) => Err(part.complaints),
+        Err(meaning) => Err(document.beside(part.complaints, meaning)),
+    }
+}
+
+/// The vehicle of a file whose shape is right.
+fn vehicle_of(
+    source: &Arc<Source>,
+    document: &Document,
+    file: VehicleFile,
+) -> Result<Vehicle, Vec<Complaint>> {
+    let mut reading = Reading::new(document);
     let (links, joints) = tree_of(&mut reading, &file);
     let outlines = outlines(&mut reading, &file);
     let attitude_actuator =

@@ -21,8 +21,13 @@ pub(crate) fn link(reading: &mut Reading<'_>, path: &[Step<'_>], body: &BodyFile
             complain_of_parts(reading, path, body);
             // Stands in for what is missing, so that the rest of the file is checked as well.
             let mass = body.mass_kg.unwrap_or(1.0);
-            let ball = Sym3::diagonal(0.1 * mass, 0.1 * mass, 0.1 * mass);
-            Some(matter(reading, path, body, mass, Vec3::zero(), ball))
+            let p_cm = body.centre_of_mass_m.map_or(Vec3::zero(), Vec3::from_array);
+            let about_p_cm = body.inertia_kgm2.as_ref();
+            let inertia = match about_p_cm.filter(|i| i.about == AboutFile::CentreOfMass) {
+                Some(inertia) => central(reading, path, mass, p_cm, inertia),
+                None => Sym3::diagonal(1.0, 1.0, 1.0).scaled(0.1 * mass.abs().max(1.0)),
+            };
+            Some(matter(reading, path, body, mass, p_cm, inertia))
         }
     };
     Link { name: body.name.clone(), at: reading.below(path, "name"), matter }
