@@ -1,0 +1,19 @@
+//! The flight laws, each against a second route: forward dynamics, momentum summed over the bodies,
+//! finite differences, closed forms.
+#![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
+#![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
+
+#[path = "../inverse_kinematics/arms.rs"]
+#[allow(dead_code, reason = "the inverse kinematics asks more of the same arms")]
+mod arms;
+#[path = "../../../dynamics/tests/random_robot/mod.rs"]
+#[allow(dead_code, reason = "the dynamics asks more of the same trees")]
+mod random_robot;
+
+mod attitude_control;
+mod computed_torque;
+mod feedforward;
+mod postures;
+mod resolved_motion;
+mod singular_postures;
+mod worst;
