@@ -92,21 +92,21 @@ fn rename(table: &mut Table, meant: &[(Range<usize>, String)]) {
 fn prune_table(table: &mut Table, faulty: &[Range<usize>]) -> bool {
     let mut whole = true;
     table.retain(|_, entry| {
+        // A list of tables stands where its first table does: look at the tables first.
+        if let Value::Array(items) = &mut entry.item.value {
+            for item in items.iter_mut() {
+                if let Value::Table(inner) = &mut item.value {
+                    whole &= !faulty.contains(&item.span) && prune_table(inner, faulty);
+                } else if faulty.contains(&item.span) {
+                    return false;
+                }
+            }
+        }
         if faulty.contains(&entry.key_span) || faulty.contains(&entry.item.span) {
             return false;
         }
-        match &mut entry.item.value {
-            Value::Table(inner) => whole &= prune_table(inner, faulty),
-            Value::Array(items) => {
-                for item in items.iter_mut() {
-                    match &mut item.value {
-                        _ if faulty.contains(&item.span) => whole = false,
-                        Value::Table(inner) => whole &= prune_table(inner, faulty),
-                        _ => {}
-                    }
-                }
-            }
-            _ => {}
+        if let Value::Table(inner) = &mut entry.item.value {
+            whole &= prune_table(inner, faulty);
         }
         true
     });
@@ -180,6 +180,7 @@ mod tests {
         let arm = part.value.expect("nothing that is needed is missing");
         assert_eq!((arm.name.as_str(), arm.mass_kg, arm.length_m), ("a", -1.0, None));
         assert_eq!(arm.joint[0].rate_deg_s, 2.0, "the key that was meant");
+        assert_eq!(arm.joint[0].travel_deg, [3.0, 1.0]);
         let meaning = vec![
             document.error(at!["mass_kg"], "negative", "here"),
             document.error(at!["joint", 0, "travel_deg"], "reversed", "here"),
