@@ -99,11 +99,9 @@ fn a_mission_has_phases_and_no_more_than_fit() {
     let said = |text: &str| render(&complaints("small.toml", text), false);
     let none = said(&GOOD[..at].replace(" during bend once", ""));
     assert!(none.contains("a mission without phases"), "{none}");
-    let mut text = GOOD.to_owned();
-    for i in 0..32 {
-        text += &format!("[[phase]]\nname = \"{i}\"\nhold = {{ duration_s = 1.0 }}\n");
-    }
-    let many = said(&text);
+    let phase = |i| format!("[[phase]]\nname = \"{i}\"\nhold = {{ duration_s = 1.0 }}\n");
+    let many: String = (0..32).map(phase).collect();
+    let many = said(&[GOOD, &many].concat());
     assert!(many.contains("33 phases, at most 32 fit"), "{many}");
 }
 
