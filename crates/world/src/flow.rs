@@ -20,7 +20,8 @@ pub struct Flow<const J: usize> {
     pub angular: Vec3<f64>,
     /// Angular impulse of the attitude actuator on the bodies, inertial axes (N·m·s).
     pub from_actuator: Vec3<f64>,
-    /// Angular impulse from outside about the centre of mass, inertial axes (N·m·s).
+    /// Angular impulse from outside about the common centre of mass of the vehicle and the free
+    /// bodies, inertial axes (N·m·s).
     pub from_outside: Vec3<f64>,
     /// Work of the joint drives, of the attitude actuator, and from outside (J).
     pub work: Vec3<f64>,

@@ -31,7 +31,7 @@ pub struct Ledger {
     pub now: Account,
     /// Angular impulse that the attitude actuator gave the bodies (N·m·s).
     pub angular_from_actuator: Vec3<f64>,
-    /// Angular impulse from outside about the centre of mass (N·m·s).
+    /// Angular impulse from outside about the common centre of mass (N·m·s).
     pub angular_from_outside: Vec3<f64>,
     /// Impulse from outside (N·s).
     pub linear_from_outside: Vec3<f64>,

@@ -81,7 +81,8 @@ impl<const J: usize> World<J> {
         let found = self.dynamics_at(&k, t0 + t, &outside);
         let (R_NB, w) = (state.X_NB.rotation, state.V_NB_B.angular);
         let torque_B = found.force.base.torque + self.actuator_torque_B;
-        let (force, torque) = about_centre_of_mass(&k, &outside, self.system.displaced(d).p_NScm_N);
+        let p_NScm_N = self.system.p_NScm_N + d.p_NScm_N;
+        let (force, torque) = about_centre_of_mass(&k, &outside, p_NScm_N);
         let torque_N = R_NB * torque_B;
         let mut work = Vec3 { x: 0.0, y: torque_B.dot(w), z: 0.0 };
         for j in self.robot.joints() {
@@ -98,9 +99,25 @@ impl<const J: usize> World<J> {
             linear: force,
             angular: torque_N + torque,
             from_actuator: torque_N,
-            from_outside: torque,
+            from_outside: torque + self.beside_common_centre(p_NScm_N, t0 + t).cross(force),
             work,
         }
+    }
+}
+
+impl<const J: usize> World<J> {
+    /// From the centre of mass of vehicle and free bodies to that of the vehicle at `p_NScm_N`, `t`
+    /// (s) into the current set-points (m). The ledger counts about the first.
+    fn beside_common_centre(&self, p_NScm_N: Vec3<f64>, t: f64) -> Vec3<f64> {
+        let (mut mass, mut moment) = (self.mass, Vec3::zero());
+        for body in &self.free {
+            // They are moved after the vehicle: seen from there they are still at the start.
+            let p_NTcm_N =
+                body.p_NTcm_N + body.linear * ((t - self.into_period) / body.matter.M_F_F.mass);
+            mass += body.matter.M_F_F.mass;
+            moment += (p_NScm_N - p_NTcm_N) * body.matter.M_F_F.mass;
+        }
+        moment * (1.0 / mass)
     }
 }
 

@@ -134,7 +134,7 @@ pub struct World<const J: usize> {
     time_carry: f64,
     /// Start of the current period (s), and how much of it has gone (s).
     period_start: f64,
-    into_period: f64,
+    pub(crate) into_period: f64,
     /// Last accepted step of the adaptive stepper (s).
     last_step: f64,
 }
