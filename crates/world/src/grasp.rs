@@ -25,12 +25,16 @@ impl<const J: usize> World<J> {
         at_T.shifted_by(k.pose(frame).translation - X_NT.translation) - k.velocity(frame)
     }
 
-    /// Make free body `i` part of the body that carries `frame`, where it is now. The joints keep
-    /// their rates; total momentum continues exactly. The energy changes by what the grip dissipates
-    /// and by what the drives do to keep the rates; the change is booked.
+    /// Make free body `i` part of the body that carries `frame`, where it is now; those behind it
+    /// move up by one number. The joints keep their rates, whatever drives them; total momentum
+    /// continues exactly. The energy changes by what the grip dissipates and by what the drives do to
+    /// keep the rates; the change is booked.
     ///
     /// # Errors
-    /// If the relative twist exceeds the bounds (rad/s, m/s).
+    /// If the relative twist is not within the bounds (rad/s, m/s).
+    ///
+    /// # Panics
+    /// If no body of this number floats.
     pub fn grasp(
         &mut self,
         frame: &Frame<f64>,
@@ -40,7 +44,8 @@ impl<const J: usize> World<J> {
     ) -> Result<(), GraspRefused> {
         let V = self.relative_twist(frame, i);
         let (angular_speed, linear_speed) = (V.angular.norm(), V.linear.norm());
-        if angular_speed > largest_angular || linear_speed > largest_linear {
+        let within = angular_speed <= largest_angular && linear_speed <= largest_linear;
+        if !within {
             return Err(GraspRefused { angular_speed, linear_speed });
         }
         let before = self.account();
