@@ -8,7 +8,7 @@ use crate::law::{Feedforward, Measurement, Tuning};
 use crate::phase::{Held, JointTarget, JointTiming, PHASES, Path, Phase};
 use crate::resolved_motion::{
     Assignment, Belief, JointUse, Resolved, ResolvedMotion, WantedMotion, answered_motion,
-    resolved_motion, task_jacobian,
+    answered_twist, resolved_motion, task_jacobian,
 };
 use crate::tool_pose::{Unreachable, joints_for_tool};
 use crate::trajectory::{BadNumbers, JointMove, Profile, Quintic, ToolMotion};
@@ -165,23 +165,35 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
 
     /// Take from the sensors what the laws may take.
     fn look(&mut self, sensed: &State<T, J>) {
-        if self.started && self.setup.measurement == Measurement::None {
-            return;
+        let measured = self.setup.measurement == Measurement::Base;
+        if measured || !self.started {
+            self.belief.X_NB = sensed.X_NB;
+            self.belief.h_Scm_N = momentum_of(&self.robot, sensed);
         }
-        self.belief.X_NB = sensed.X_NB;
-        self.belief.h_Scm_N = momentum_of(&self.robot, sensed);
-        self.surprise = sensed.V_NB_B - self.motion.rate.V_NB_B;
-        self.motion.rate.V_NB_B = sensed.V_NB_B;
         if !self.started {
-            self.surprise = SpatialVelocity::zero();
-            self.started = true;
-            self.belief.q = sensed.q;
-            for j in self.robot.joints() {
-                self.now[j] = SetPoint { position: sensed.q[j], rate: sensed.v[j], ..self.now[j] };
-            }
-            self.motion.rate = Resolved { qdot: sensed.v, V_NB_B: sensed.V_NB_B };
-            self.reference = at_rest(self.believed_tool(Axes::Inertial));
+            self.start(sensed);
         }
+        if measured {
+            self.surprise = sensed.V_NB_B - self.motion.rate.V_NB_B;
+            self.motion.rate.V_NB_B = sensed.V_NB_B;
+        }
+    }
+
+    /// Begin where the joints are, with the base moving as the law says.
+    fn start(&mut self, sensed: &State<T, J>) {
+        self.started = true;
+        self.belief.q = sensed.q;
+        for j in self.robot.joints() {
+            self.now[j] = SetPoint { position: sensed.q[j], rate: sensed.v[j], ..self.now[j] };
+        }
+        self.motion = self.answer(&sensed.v, &[T::zero(); J]);
+        self.reference = at_rest(self.believed_tool(Axes::Inertial));
+    }
+
+    /// How the base is believed to answer joint motion.
+    fn answer(&self, qdot: &[T; J], qddot: &[T; J]) -> ResolvedMotion<T, J> {
+        let law = self.setup.assignment.law;
+        answered_motion(&self.robot, &self.dual_robot, law, &self.belief, qdot, qddot)
     }
 
     /// Pose of the tool as it is believed to be.
@@ -276,21 +288,14 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         let mean = (began.rate.V_NB_B + ended.rate.V_NB_B) * half
             + (began.A_NB_B - ended.A_NB_B) * twelfth;
         self.belief.X_NB = moved_on(&from.X_NB, &mean, period);
+        // The joints are not quite where they were when the base's answer was worked out.
+        let law = self.setup.assignment.law;
+        self.motion.rate.V_NB_B =
+            answered_twist(&self.robot, law, &self.belief, &self.motion.rate.qdot);
     }
 
     /// Joint motion at time `t` (s) of the path.
     fn follow(&mut self, t: T) {
-        let law = self.setup.assignment.law;
-        let answer = |computer: &Self, qdot: &[T; J], qddot: &[T; J]| {
-            answered_motion(
-                &computer.robot,
-                &computer.dual_robot,
-                law,
-                &computer.belief,
-                qdot,
-                qddot,
-            )
-        };
         let still = [T::zero(); J];
         match self.path {
             Path::Line(line, axes) => {
@@ -304,17 +309,17 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
             Path::Joints(path) => {
                 let at = path.at(t);
                 self.belief.q = at.q;
-                self.motion = answer(self, &at.v, &at.vdot);
+                self.motion = self.answer(&at.v, &at.vdot);
                 self.axes = Axes::Inertial;
                 self.reference = at_rest(self.believed_tool(Axes::Inertial));
             }
             Path::Still(Held::Joints) => {
                 self.belief.q = self.now.map(|s| s.position);
-                self.motion = answer(self, &still, &still);
+                self.motion = self.answer(&still, &still);
             }
             Path::Still(Held::Nothing) => {
                 let rates = self.motion.rate.qdot;
-                self.motion = answer(self, &rates, &still);
+                self.motion = self.answer(&rates, &still);
             }
         }
     }
@@ -452,8 +457,9 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
 
     /// Whether all phases are done.
     pub fn done(&self) -> bool {
-        let last = self.phases.get(self.phase + 1).is_none_or(Option::is_none);
-        self.begun && self.elapsed >= self.length && last
+        let none = |phase| self.phases.get(phase).is_none_or(Option::is_none);
+        let over = none(self.phase) || (none(self.phase + 1) && self.elapsed >= self.length);
+        self.begun && over
     }
 }
 

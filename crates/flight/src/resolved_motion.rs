@@ -252,21 +252,21 @@ pub fn answered_motion<T: Real, const J: usize>(
     qdot: &[T; J],
     qddot: &[T; J],
 ) -> ResolvedMotion<T, J> {
-    let M = mass_matrix_at(robot, belief);
-    let rate = Resolved { qdot: *qdot, V_NB_B: believed_base_twist(law, belief, &M, qdot) };
-    let moving = in_motion(belief, &rate);
-    let M = mass_matrix_at(dual_robot, &moving);
+    let rate = Resolved { qdot: *qdot, V_NB_B: answered_twist(robot, law, belief, qdot) };
     let dual_rates = core::array::from_fn(|j| Dual::new(qdot[j], qddot[j]));
-    let V_NB_B = believed_base_twist(law, &moving, &M, &dual_rates);
+    let V_NB_B = answered_twist(dual_robot, law, &in_motion(belief, &rate), &dual_rates);
     ResolvedMotion { rate, qddot: *qddot, A_NB_B: derivative(&V_NB_B) }
 }
 
-fn mass_matrix_at<T: Real, const J: usize>(
+/// Base twist `V_NB_B` with which the base is believed to answer joint rates.
+pub(crate) fn answered_twist<T: Real, const J: usize>(
     robot: &Robot<T, J>,
+    law: ArmLaw,
     belief: &Belief<T, J>,
-) -> MassMatrix<T, J> {
+    qdot: &[T; J],
+) -> SpatialVelocity<T> {
     let still = State { X_NB: belief.X_NB, q: belief.q, ..State::default() };
-    mass_matrix(&kinematics(robot, &still))
+    believed_base_twist(law, belief, &mass_matrix(&kinematics(robot, &still)), qdot)
 }
 
 /// A belief that moves at the given rates.

@@ -12,7 +12,10 @@ mod random_robot;
 
 mod attitude_control;
 mod computed_torque;
+mod computer;
+mod computer_outcomes;
 mod feedforward;
+mod flights;
 mod postures;
 mod resolved_motion;
 mod singular_postures;
