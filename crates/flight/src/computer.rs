@@ -367,20 +367,24 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         let tuning = &self.setup.tuning;
         let half = T::from_f64(0.5);
         // Torques are constant over the period: those of its middle are right on average.
-        let mut middle = self.now;
+        let (mut middle, mut ahead) = (self.now, *sensed);
         let mut acceleration = [T::zero(); J];
         for j in self.robot.joints() {
             let blend = SetPointMotion::between(self.now[j], next[j], tuning.period);
             middle[j] = blend.at(tuning.period * half);
             acceleration[j] = (next[j].rate - self.now[j].rate) / tuning.period;
+            let gain = acceleration[j] * tuning.period * half;
+            ahead.q[j] += (sensed.v[j] + gain * half) * tuning.period * half;
+            ahead.v[j] += gain;
         }
+        ahead.V_NB_B += self.motion.A_NB_B * (tuning.period * half);
         let coasting = matches!(self.path, Path::Still(Held::Nothing));
         let (effort, attitude_torque_B) = if coasting {
             ([T::zero(); J], Vec3::zero())
         } else {
             let law = self.setup.assignment.law;
             (
-                computed_torque(&self.robot, law, tuning, sensed, &self.now, &acceleration),
+                computed_torque(&self.robot, law, tuning, &ahead, &middle, &acceleration),
                 self.attitude_torque(sensed, &middle),
             )
         };

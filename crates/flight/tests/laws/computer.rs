@@ -326,7 +326,7 @@ fn driven(
 }
 
 /// The arm itself, driven by the commanded torques only, at 100 Hz: it follows the set-points to
-/// 1.7e-4 rad, measured; and the torque that the base is told is that of the middle of the period.
+/// 6.8e-6 rad, measured; and the torque that the base is told is that of the middle of the period.
 #[test]
 fn the_torques_carry_the_arm_along_the_set_points() {
     let (robot, mut state) = (robot(), at_rest());
@@ -346,7 +346,7 @@ fn the_torques_carry_the_arm_along_the_set_points() {
         torque.see((command.attitude_torque_B - fed).norm());
         now = command.set_points;
     }
-    off.is_below(1e-3);
+    off.is_below(5e-5);
     torque.is_below(1e-9);
 }
 
