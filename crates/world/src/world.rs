@@ -326,7 +326,7 @@ impl<const J: usize> World<J> {
         for body in &mut self.free {
             body.advance(period, self.stepper);
         }
-        Ok(())
+        self.check_free_bodies()
     }
 
     fn advance_adaptively(&mut self, period: f64, tolerance: f64) -> Result<(), NonFinite> {
@@ -403,8 +403,22 @@ impl<const J: usize> World<J> {
             ("linear momentum", s.linear),
             ("angular momentum", s.angular),
         ] {
-            if !v.to_array().iter().all(|x| x.is_finite()) {
+            if !is_finite(v) {
                 return fail(name.into());
+            }
+        }
+        Ok(())
+    }
+
+    fn check_free_bodies(&self) -> Result<(), NonFinite> {
+        for (i, body) in self.free.iter().enumerate() {
+            for (name, v) in
+                [("attitude", body.quat_NT.vector()), ("centre of mass", body.p_NTcm_N)]
+            {
+                if !is_finite(v) {
+                    let quantity = format!("{name} of free body {i}");
+                    return Err(NonFinite { quantity, time: self.time });
+                }
             }
         }
         Ok(())
@@ -422,4 +436,8 @@ fn add_with_care(x: &mut f64, dx: f64, carry: &mut f64) {
     let sum = *x + y;
     *carry = (sum - *x) - y;
     *x = sum;
+}
+
+fn is_finite(v: Vec3<f64>) -> bool {
+    v.to_array().iter().all(|x| x.is_finite())
 }
