@@ -1,0 +1,110 @@
+//! The real-time claim: a control period of the flight computer does not touch the heap.
+#![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
+#![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
+#![allow(unsafe_code, reason = "a global allocator is unsafe to implement; this one only counts")]
+
+#[path = "inverse_kinematics/arms.rs"]
+#[allow(dead_code, reason = "the inverse kinematics asks more of the same arms")]
+mod arms;
+#[path = "laws/flights.rs"]
+#[allow(dead_code, reason = "the laws ask more of the same flights")]
+mod flights;
+
+use flights::{Flight, aside, at_rest, drifting, robot, setup};
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+use std::hint::black_box;
+use wrasse_dynamics::kinematics;
+use wrasse_flight::{
+    ArmLaw, Axes, Grip, Held, JointTarget, JointTiming, Measurement, NoWay, Phase,
+};
+use wrasse_spatial::{Pose, vec3};
+
+struct Counting;
+
+thread_local! {
+    /// Calls to the allocator on this thread: the test runner's own threads do not count.
+    static CALLS: Cell<usize> = const { Cell::new(0) };
+}
+
+fn count() {
+    CALLS.with(|calls| calls.set(calls.get() + 1));
+}
+
+// SAFETY: every call goes on to the system's allocator unchanged; counting allocates nothing.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count();
+        unsafe { System.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        count();
+        unsafe { System.dealloc(pointer, layout) }
+    }
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        count();
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// Calls to the allocator while something runs.
+fn allocations(run: impl FnOnce()) -> usize {
+    let before = CALLS.with(Cell::get);
+    run();
+    CALLS.with(Cell::get) - before
+}
+
+fn to_tool_pose(X: Pose<f64>) -> Phase<f64, 7> {
+    let to = JointTarget::Tool(X, Axes::Base);
+    Phase::MoveJoints { to, timing: JointTiming::Duration(0.2) }
+}
+
+#[test]
+fn the_counter_sees_an_allocation() {
+    assert_eq!(allocations(|| drop(black_box(Box::new(1)))), 2, "one box made, one dropped");
+}
+
+/// Each kind of phase, inverse kinematics included, by each law.
+#[test]
+fn a_control_period_allocates_nothing() {
+    for law in [ArmLaw::Terrestrial, ArmLaw::AttitudeHeld, ArmLaw::FreeFloating] {
+        let setup = setup(law, Measurement::Base);
+        let base = wrasse_dynamics::State { X_NB: Pose::identity(), ..at_rest() };
+        let mut X = kinematics(&robot(), &base).pose(&setup.assignment.tool);
+        X.translation += vec3(0.02, 0.05, 0.03);
+        let phases = [
+            aside(Axes::Inertial, 0.2),
+            Phase::Hold { what: Held::Tool, duration: 0.1 },
+            to_tool_pose(X),
+            Phase::Grip(Grip::Grasp(0)),
+            Phase::Hold { what: Held::Nothing, duration: 0.1 },
+            Phase::Hold { what: Held::Joints, duration: 0.1 },
+        ];
+        let (mut flight, same) = (Flight::new(&setup, drifting(), &phases), robot());
+        let calls = allocations(|| {
+            while !flight.computer.done() {
+                black_box(flight.step().unwrap());
+                black_box(flight.computer.believed_tool_error());
+                black_box(flight.computer.task_jacobian());
+            }
+            flight.computer.robot_changed(&same);
+        });
+        assert_eq!(calls, 0, "{law:?}");
+    }
+}
+
+/// Damped least squares tries in vain, and still nothing is allocated.
+#[test]
+fn a_refusal_allocates_nothing() {
+    let away = Pose { translation: vec3(9.0, 0.0, 0.0), ..Pose::identity() };
+    let setup = setup(ArmLaw::AttitudeHeld, Measurement::None);
+    let mut flight = Flight::new(&setup, at_rest(), &[to_tool_pose(away)]);
+    let calls = allocations(|| {
+        let bad = flight.step().unwrap_err();
+        assert!(matches!(bad.reason, NoWay::Unreachable(_)));
+    });
+    assert_eq!(calls, 0);
+}
