@@ -3,7 +3,7 @@
 use crate::limits_passed::{Passed, limits_passed};
 use crate::mission::{Case, PayloadStart};
 use crate::observe::{Observation, Track, observe};
-use crate::outcome::{End, Event, Ledger, Snapshot, Telemetry};
+use crate::outcome::{End, Event, EventKind, Ledger, Snapshot, Telemetry};
 use crate::picture::snapshot;
 use crate::plan::{Plan, cannot_begin};
 use crate::quantity::Watch;
@@ -165,15 +165,15 @@ impl<'a> Flight<'a> {
         held.chain(floating).collect()
     }
 
-    fn say(&mut self, text: String) {
-        self.events.push(Event { time_s: self.world.time(), text });
+    fn say(&mut self, kind: EventKind, text: String) {
+        self.events.push(Event { time_s: self.world.time(), kind, text });
     }
 
     fn enter(&mut self, phase: usize) {
         self.said.clear();
         self.said_passed.clear();
         if let Some(phase) = self.case.phases.get(phase) {
-            self.say(format!("phase {}", phase.name));
+            self.say(EventKind::Phase, format!("phase {}", phase.name));
         }
     }
 
@@ -204,7 +204,7 @@ impl<'a> Flight<'a> {
             if !self.said.contains(&saturation) {
                 self.said.push(saturation);
                 let text = self.describe(saturation);
-                self.say(text);
+                self.say(EventKind::Limit, text);
             }
         }
         let broken = self.world.advance(period).err()?;
@@ -216,7 +216,7 @@ impl<'a> Flight<'a> {
         for (passed, text) in limits_passed(self.case, seen) {
             if !self.said_passed.contains(&passed) {
                 self.said_passed.push(passed);
-                self.say(text);
+                self.say(EventKind::Limit, text);
             }
         }
     }
@@ -226,10 +226,8 @@ impl<'a> Flight<'a> {
         match saturation {
             Saturation::JointEffort(j) => {
                 let limit = self.case.vehicle.limits[j].effort.unwrap_or(f64::NAN);
-                format!(
-                    "drive of joint {} at its limit of {limit} (N·m or N)",
-                    self.case.joint_name(j)
-                )
+                let limit = self.case.effort_text(j, limit);
+                format!("drive of joint {} at its limit of {limit}", self.case.joint_name(j))
             }
             Saturation::ActuatorTorque(i) => {
                 let limit =
@@ -252,7 +250,7 @@ impl<'a> Flight<'a> {
         };
         match done {
             Ok(text) => {
-                self.say(text);
+                self.say(EventKind::Grip, text);
                 self.computer.robot_changed(self.world.robot());
                 None
             }

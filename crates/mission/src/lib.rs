@@ -22,8 +22,8 @@ mod telemetry;
 
 pub use mission::Mission;
 pub use outcome::{
-    CaseOutcome, Channel, End, Event, Ledger, Metric, Outcome, PlanLine, ProvenanceRow, Snapshot,
-    SnapshotBox, Telemetry, VehicleCard, Verdict,
+    CaseOutcome, Channel, End, Event, EventKind, Ledger, Metric, Outcome, PlanLine, ProvenanceRow,
+    Snapshot, SnapshotBox, Telemetry, VehicleCard, Verdict,
 };
 pub use read_mission::{mission_schema, read_mission};
 pub use run::{Progress, RunOptions, run};

@@ -28,19 +28,21 @@ pub(crate) fn limits_passed(case: &Case, seen: &Observation) -> Vec<(Passed, Str
             && !(lower - 1e-9..=upper + 1e-9).contains(&q)
         {
             let text = format!(
-                "joint {name} beyond its travel: {q:.4}, from {lower:.4} to {upper:.4} (rad or m)"
+                "joint {name} beyond its travel: {}, from {} to {}",
+                case.position_text(j, q),
+                case.position_text(j, lower),
+                case.position_text(j, upper)
             );
             passed.push((Passed::Travel(j), text));
         }
         if let Some(limit) = limits.rate.filter(|limit| v.abs() > limit * SLACK) {
-            let text =
-                format!("joint {name} faster than its limit of {limit:.4} (rad/s or m/s): {v:.4}");
+            let (found, limit) = (case.rate_text(j, v), case.rate_text(j, limit));
+            let text = format!("joint {name} faster than its limit of {limit}: {found}");
             passed.push((Passed::Rate(j), text));
         }
         if let Some(limit) = limits.effort.filter(|limit| effort.abs() > limit * SLACK) {
-            let text = format!(
-                "joint {name} needs more than its drive has: {effort:.4} of {limit:.4} (N·m or N)"
-            );
+            let (found, limit) = (case.effort_text(j, effort), case.effort_text(j, limit));
+            let text = format!("joint {name} needs more than its drive has: {found} of {limit}");
             passed.push((Passed::Effort(j), text));
         }
     }

@@ -3,7 +3,7 @@
 use crate::quantity::Quantity;
 use crate::requirement::Requirement;
 use std::sync::Arc;
-use wrasse_dynamics::{Frame, Payload, Robot, State};
+use wrasse_dynamics::{Frame, JointKind, Payload, Robot, State};
 use wrasse_flight::{Phase, Setup};
 use wrasse_spatial::{Pose, SpatialVelocity};
 use wrasse_vehicle::{JOINTS, Vehicle};
@@ -126,5 +126,20 @@ impl Case {
     }
     pub(crate) fn joint_name(&self, j: usize) -> &str {
         self.vehicle.joint_names.get(j).map_or("?", String::as_str)
+    }
+    fn turns(&self, j: usize) -> bool {
+        self.vehicle.robot.joint(j).kind == JointKind::Revolute
+    }
+    /// A joint's position in words (from rad or m).
+    pub(crate) fn position_text(&self, j: usize, x: f64) -> String {
+        if self.turns(j) { format!("{:.2} deg", x.to_degrees()) } else { format!("{x:.4} m") }
+    }
+    /// A joint's rate in words (from rad/s or m/s).
+    pub(crate) fn rate_text(&self, j: usize, x: f64) -> String {
+        if self.turns(j) { format!("{:.2} deg/s", x.to_degrees()) } else { format!("{x:.4} m/s") }
+    }
+    /// A joint's torque or force in words.
+    pub(crate) fn effort_text(&self, j: usize, x: f64) -> String {
+        format!("{x:.2} {}", if self.turns(j) { "N·m" } else { "N" })
     }
 }

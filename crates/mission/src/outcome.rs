@@ -129,11 +129,25 @@ pub struct PlanLine {
     pub text: String,
 }
 
+/// What kind of thing happened.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum EventKind {
+    /// A phase began.
+    Phase,
+    /// Something was grasped or released.
+    Grip,
+    /// A limit was reached or passed.
+    Limit,
+}
+
 /// Something that happened.
 #[derive(Debug, Clone, Serialize)]
 pub struct Event {
     /// Mission time (s).
     pub time_s: f64,
+    /// What kind of thing it is.
+    pub kind: EventKind,
     /// What happened, with numbers.
     pub text: String,
 }

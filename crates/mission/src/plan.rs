@@ -35,7 +35,8 @@ struct PhaseNotes {
     way: f64,
     singular: f64,
     reach: f64,
-    rate: f64,
+    /// The joint that moves fastest, and how fast (rad/s or m/s).
+    fastest: (usize, f64),
     base_turn: f64,
 }
 
@@ -46,7 +47,7 @@ impl PhaseNotes {
         way: 0.0,
         singular: f64::INFINITY,
         reach: f64::INFINITY,
-        rate: 0.0,
+        fastest: (0, 0.0),
         base_turn: 0.0,
     };
 }
@@ -155,20 +156,25 @@ impl<'a> Belief<'a> {
         notes.reach = notes.reach.min(reach);
         let mut limited = String::new();
         for j in k.robot.joints() {
-            notes.rate = notes.rate.max(state.v[j].abs());
+            if state.v[j].abs() > notes.fastest.1 {
+                notes.fastest = (j, state.v[j].abs());
+            }
             let (name, limits) = (case.joint_name(j), &case.vehicle.limits[j]);
             if let Some((lower, upper)) = limits.travel
                 && !(lower - 1e-9..=upper + 1e-9).contains(&state.q[j])
             {
-                let at = state.q[j];
                 return Some(format!(
-                    "joint {name} would leave its travel: {at:.4}, from {lower:.4} to {upper:.4} (rad or m)"
+                    "joint {name} would leave its travel: {}, from {} to {}",
+                    case.position_text(j, state.q[j]),
+                    case.position_text(j, lower),
+                    case.position_text(j, upper)
                 ));
             }
             if let Some(rate) = limits.rate
                 && state.v[j].abs() > rate * (1.0 - 1e-9)
             {
-                limited = format!(", joint {name} at its rate limit of {rate:.4} (rad/s or m/s)");
+                limited =
+                    format!(", joint {name} at its rate limit of {}", case.rate_text(j, rate));
             }
         }
         if !self.computer.follows_tool() {
@@ -205,9 +211,10 @@ fn finished(case: &Case, phase: usize, notes: &PhaseNotes) -> Option<PlanLine> {
         return None;
     }
     let mut text = format!(
-        "{:.2} s, joint rates up to {:.4} (rad/s or m/s)",
+        "{:.2} s, joint rates up to {} ({})",
         notes.periods as f64 * case.period(),
-        notes.rate
+        case.rate_text(notes.fastest.0, notes.fastest.1),
+        case.joint_name(notes.fastest.0)
     );
     if notes.singular.is_finite() {
         text = format!("{text}, {}", condition(notes.singular, notes.reach, notes.base_turn));

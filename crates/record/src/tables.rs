@@ -1,6 +1,6 @@
 //! The verdicts as plain text, for the terminal.
 
-use wrasse_mission::{CaseOutcome, Ledger, Outcome, Verdict};
+use wrasse_mission::{CaseOutcome, EventKind, Ledger, Outcome, Verdict};
 
 use crate::comparison::{Comparison, case_name, comparison, judged, reason};
 use crate::ledger_rests::{Rest, ledger_rests};
@@ -28,7 +28,42 @@ fn single(case: &CaseOutcome) -> String {
     if let Some(reason) = reason(&case.end) {
         text += &format!("\n{}\n", printable(&reason));
     }
-    text + "\n" + &ledger_lines(&case.ledger, "")
+    text += &limits_reached(case);
+    text += "\n";
+    text += &ledger_lines(&case.ledger, "");
+    text + &integration_error(case)
+}
+
+/// Most limits that are told one by one.
+const LIMITS: usize = 8;
+
+/// Limits that were reached or passed, a line each.
+fn limits_reached(case: &CaseOutcome) -> String {
+    let limits: Vec<_> = case.events.iter().filter(|e| e.kind == EventKind::Limit).collect();
+    let lines = limits
+        .iter()
+        .take(LIMITS)
+        .map(|event| format!("at {} s: {}\n", significant(event.time_s), printable(&event.text)));
+    let mut text: String = lines.collect();
+    if limits.len() > LIMITS {
+        text += &format!("and {} more: see the report\n", limits.len() - LIMITS);
+    }
+    if text.is_empty() { text } else { format!("\n{text}") }
+}
+
+/// The integration error in a line, if it was asked for.
+fn integration_error(case: &CaseOutcome) -> String {
+    if case.error_estimate.is_empty() {
+        return String::new();
+    }
+    let parts = case.error_estimate.iter().map(|metric| {
+        let name = metric.name.strip_prefix("integration_error.").unwrap_or(&metric.name);
+        format!("{name} {} {}", power(metric.value), metric.unit)
+    });
+    format!(
+        "integration error, from a second run at half the step: {}\n",
+        parts.collect::<Vec<_>>().join(", ")
+    )
 }
 
 fn verdicts(verdicts: &[Verdict]) -> String {

@@ -3,8 +3,8 @@
 #![allow(dead_code, reason = "each test file uses its own part")]
 
 use wrasse_mission::{
-    CaseOutcome, Channel, End, Event, Ledger, Metric, Outcome, PlanLine, ProvenanceRow, Snapshot,
-    SnapshotBox, Telemetry, VehicleCard, Verdict,
+    CaseOutcome, Channel, End, Event, EventKind, Ledger, Metric, Outcome, PlanLine, ProvenanceRow,
+    Snapshot, SnapshotBox, Telemetry, VehicleCard, Verdict,
 };
 
 const DURATION: f64 = 24.0;
@@ -164,7 +164,7 @@ fn case(labels: Vec<(String, String)>, miss: f64, samples: usize) -> CaseOutcome
             (12.4, "actuator holds 23.45 of 25 N·m·s"),
             (22.0, "phase hold begins"),
         ]
-        .map(|(time_s, text)| Event { time_s, text: text.into() })
+        .map(|(time_s, text)| Event { time_s, kind: EventKind::Phase, text: text.into() })
         .to_vec(),
         error_estimate: vec![metric("base.attitude", 3.1e-12, "rad")],
         telemetry,
