@@ -105,7 +105,7 @@ fn fly(text: &str) -> Result<bool, TestCaseError> {
         return Ok(false);
     }
     let mut last = -1.0;
-    let options = RunOptions { error_estimate: text.len() % 2 == 0 };
+    let options = RunOptions { error_estimate: text.len().is_multiple_of(2) };
     let outcome = run(&mission, options, &mut |progress| last = progress.share);
     prop_assert!((0.0..=1.0).contains(&last), "{last} is no share");
     prop_assert_eq!(outcome.cases.len(), cases);
@@ -250,6 +250,5 @@ fn the_hurried_missions_are_flown_and_a_good_part_of_those_with_other_numbers() 
             flown += usize::from(fly(&renumbered(&text, (which, 11))).expect("nor here"));
         }
     }
-    println!("{flown} of {} flown", SHIPPED.len() * 40);
     assert!(flown > 100, "the fuzz above flies next to nothing: {flown}");
 }
