@@ -5,6 +5,7 @@ use crate::input::{complain, say, tell, text_of};
 use crate::{YES, bad};
 use clap::Args;
 use serde::Deserialize;
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -115,15 +116,39 @@ impl Eval {
             }
         };
         match questions(&self.states, text, &vehicle) {
-            Ok((frame, questions)) => {
-                say(&answer(&vehicle, &frame, &questions).to_string());
-                YES
-            }
+            Ok((frame, questions)) => answered(&answer(&vehicle, &frame, &questions)),
             Err(complaints) => {
                 complain(&complaints);
                 bad()
             }
         }
+    }
+}
+
+/// Print an answer; refuse it where a number is not finite, for JSON has no such numbers.
+fn answered(answer: &Value) -> ExitCode {
+    let results = answer["results"].as_array().into_iter().flatten().enumerate();
+    let members =
+        results.flat_map(|(i, r)| r.as_object().into_iter().flatten().map(move |m| (i, m)));
+    let broken: Vec<String> = members
+        .filter(|(_, (_, value))| holds_null(value))
+        .map(|(i, (name, _))| format!("error: state {i}: {name} is not finite"))
+        .collect();
+    if broken.is_empty() {
+        say(&answer.to_string());
+        return YES;
+    }
+    let help = "help: the numbers of the state are too large to be worked with";
+    tell(&format!("{}\n{help}", broken.join("\n")));
+    bad()
+}
+
+fn holds_null(value: &Value) -> bool {
+    match value {
+        Value::Null => true,
+        Value::Array(items) => items.iter().any(holds_null),
+        Value::Object(members) => members.values().any(holds_null),
+        _ => false,
     }
 }
 

@@ -4,7 +4,7 @@ use crate::input::{complain, say, tell, text_of};
 use crate::progress::Bar;
 use crate::{YES, bad, no};
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use wrasse_mission::{End, Outcome, RunOptions, read_mission, run};
 use wrasse_record::{summary_json, verdict_table, write_results};
@@ -45,18 +45,26 @@ impl Run {
                 return bad();
             }
         };
+        let folder = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&mission.name));
+        if let Some(way) = in_the_way(&folder) {
+            tell(&format!(
+                "error: the results cannot be written to {}: {} is not a folder; choose another \
+                 place with --out",
+                folder.display(),
+                way.display()
+            ));
+            return bad();
+        }
         let bar = Bar::new(mission.case_count());
         let options = RunOptions { error_estimate: self.error_estimate };
         let outcome = run(&mission, options, &mut |progress| bar.show(progress));
         bar.done();
-        self.hand_over(&outcome)
+        self.hand_over(&outcome, &folder)
     }
 
     /// Write the results, print what was asked for, say how it went.
-    fn hand_over(&self, outcome: &Outcome) -> ExitCode {
-        let folder =
-            self.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&outcome.mission));
-        let written = match write_results(outcome, &folder) {
+    fn hand_over(&self, outcome: &Outcome, folder: &Path) -> ExitCode {
+        let written = match write_results(outcome, folder) {
             Ok(written) => written,
             Err(error) => {
                 tell(&format!("error: the results cannot be written: {error}"));
@@ -74,4 +82,9 @@ impl Run {
         }
         if outcome.cases.iter().all(|case| case.passed) { YES } else { no() }
     }
+}
+
+/// What stands where a folder, or one above it, has to be: worth knowing before a long flight.
+fn in_the_way(folder: &Path) -> Option<&Path> {
+    folder.ancestors().find(|above| above.exists()).filter(|above| !above.is_dir())
 }

@@ -112,8 +112,8 @@ fn results_go_to_out_if_it_is_given() {
 }
 
 #[test]
-fn results_that_cannot_be_written_end_with_2_and_a_sentence() {
-    let folder = with_mission(SMALL);
+fn results_that_cannot_be_written_end_with_2_and_a_sentence_before_a_long_flight() {
+    let folder = with_mission(&SMALL.replace("duration_s = 1.0", "duration_s = 500000.0"));
     folder.put("in the way", "");
     for out in ["in the way", "in the way/deeper"] {
         let said = folder.wrasse(&["run", "mission.toml", "--out", out]);
@@ -122,6 +122,29 @@ fn results_that_cannot_be_written_end_with_2_and_a_sentence() {
         assert!(said.err.contains(out) && said.err.contains("--out"), "{}", said.err);
         assert_eq!(folder.names(""), ["in the way", "mission.toml"]);
     }
+}
+
+#[test]
+fn results_that_a_folder_of_the_same_name_keeps_out_end_with_2_and_leave_nothing() {
+    let folder = with_mission(SMALL);
+    std::fs::create_dir_all(folder.path().join("results/summary.json")).unwrap();
+    let said = folder.wrasse(&["run", "mission.toml", "--out", "results"]);
+    assert_eq!((said.code, said.out.as_str()), (2, ""));
+    assert!(said.err.starts_with("error: the results cannot be written: "), "{}", said.err);
+    assert!(said.err.contains("summary.json") && said.err.contains("--out"), "{}", said.err);
+    assert_eq!(folder.names("results"), ["summary.json"]);
+}
+
+#[test]
+fn a_vehicle_file_is_seen_from_the_folder_of_its_mission() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.path().join("mine")).unwrap();
+    folder.put("mine/bus.toml", &folder.wrasse(&["vehicles", "planar-two-link"]).out);
+    folder.put("mine/mission.toml", &SMALL.replace("planar-two-link", "bus.toml"));
+    let said = folder.wrasse(&["run", "mine/mission.toml", "--json"]);
+    assert_eq!(said.code, 0, "{}", said.err);
+    let summary: Value = serde_json::from_str(&said.out).unwrap();
+    assert_eq!(summary["vehicle"]["file"], "bus.toml");
 }
 
 #[test]

@@ -368,6 +368,17 @@ fn assert_same(found: &str, file: &str) {
 }
 
 #[test]
+fn numbers_that_overflow_are_named_and_not_answered_with_null() {
+    let said = refusal(
+        r#"{ "frame": "tool", "states": [{}, { "joints": { "joint1": { "velocity": 1e200 } } },
+            { "base": { "position": [1e308, 1e308, 0] } }] }"#,
+    );
+    assert!(said.starts_with("error: state 1: kinetic_energy is not finite\n"), "{said}");
+    assert!(said.contains("error: state 2: centre_of_mass is not finite\n"), "{said}");
+    assert!(!said.contains("state 0") && said.contains("help: "), "{said}");
+}
+
+#[test]
 fn no_state_no_result() {
     let found = eval("one_arm.urdf", &json!({ "frame": "a0_tool", "states": [] }));
     assert_eq!(found["results"], json!([]));

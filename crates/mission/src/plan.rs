@@ -98,7 +98,19 @@ pub(crate) fn plan(case: &Case) -> Plan {
         }
     }
     plan.lines.extend(finished(case, phase, &notes));
+    if !belief.computer.done() {
+        plan.blocked = Some(too_long(case, phase, plan.periods));
+    }
     plan
+}
+
+/// A mission that does not come to its end.
+fn too_long(case: &Case, phase: usize, periods: u64) -> End {
+    let time_s = case.period() * periods as f64;
+    let phase = case.phases.get(phase).map_or(String::new(), |p| p.name.clone());
+    let reason =
+        format!("the mission is not over after {time_s} s: no mission is planned for longer");
+    End::Infeasible { phase, time_s, reason }
 }
 
 impl<'a> Belief<'a> {

@@ -7,7 +7,9 @@ use crate::phase_format::{
     ShapeFile, ToolLimitsFile, ToolPoseFile,
 };
 use crate::read_mission::Reading;
-use crate::read_setup::{attitude, axes, by_joint, place_of_position, posture, radians, vector};
+use crate::read_setup::{
+    RATES, attitude, axes, by_joint, place_of_position, posture, radians, vector,
+};
 use wrasse_document::{Step, at};
 use wrasse_dynamics::JointKind;
 use wrasse_flight::trajectory::{MotionLimits, ProfileShape};
@@ -41,11 +43,12 @@ pub(crate) fn phase(
         return None;
     }
     let phase = if let Some(m) = &file.move_tool {
-        move_tool(r, i, m)?
+        move_tool(r, i, m, mission)?
     } else if let Some(m) = &file.move_joints {
         move_joints(r, i, m, mission)?
     } else if let Some(hold) = &file.hold {
-        let duration = duration(r, at!["phase", i, "hold", "duration_s"], hold.duration_s);
+        let path = at!["phase", i, "hold", "duration_s"];
+        let duration = duration(r, path, hold.duration_s, mission);
         let what = match hold.keep {
             KeepFile::Joints => Held::Joints,
             KeepFile::Tool => Held::Tool,
@@ -70,7 +73,12 @@ fn bounds(r: &mut Reading<'_>, i: usize, grasp: &GraspFile) -> (f64, f64) {
     (turn.to_radians(), r.not_negative(&path("largest_speed_m_s"), grasp.largest_speed_m_s))
 }
 
-fn move_tool(r: &mut Reading<'_>, i: usize, m: &MoveToolFile) -> Option<Phase<f64, JOINTS>> {
+fn move_tool(
+    r: &mut Reading<'_>,
+    i: usize,
+    m: &MoveToolFile,
+    mission: &MissionFile,
+) -> Option<Phase<f64, JOINTS>> {
     let path = |key| [Step::Key("phase"), Step::Index(i), Step::Key("move_tool"), Step::Key(key)];
     let (by, to) =
         (m.by_m.is_some() || m.turn_by_deg.is_some(), m.to_position_m.zip(m.to_attitude));
@@ -92,19 +100,28 @@ fn move_tool(r: &mut Reading<'_>, i: usize, m: &MoveToolFile) -> Option<Phase<f6
         }
     };
     let timing = match (m.duration_s, &m.limits) {
-        (Some(given), None) => Timing::Duration(duration(r, &path("duration_s"), given)),
+        (Some(given), None) => Timing::Duration(duration(r, &path("duration_s"), given, mission)),
         (None, Some(limits)) => tool_limits(r, i, limits),
         (given, _) => return no_timing(r, at!["phase", i, "move_tool"], given),
     };
     Some(Phase::MoveTool { target, axes: axes(m.axes), timing })
 }
 
-/// Longest phase (s): ten days.
-const LONGEST: f64 = 864_000.0;
+/// Most control periods of a phase: ten days at 100 Hz.
+const LONGEST: f64 = 86_400_000.0;
 
-fn duration(r: &mut Reading<'_>, path: &[Step<'_>], given: f64) -> f64 {
-    let given = r.positive(path, given);
-    r.within(path, given, (0.0, LONGEST), "no phase lasts longer than ten days")
+/// A duration (s) that can be planned.
+fn duration(r: &mut Reading<'_>, path: &[Step<'_>], given: f64, mission: &MissionFile) -> f64 {
+    // A rate that cannot be is complained of where it stands.
+    let (given, rate) = (r.positive(path, given), mission.control.rate_hz.min(RATES.1));
+    if given * rate > LONGEST {
+        let message =
+            format!("{given} s at {rate} control periods per second: no phase is so long");
+        let longest = LONGEST / rate;
+        r.error(path, message, &format!("at most {longest} s at this control.rate_hz"));
+        return 1.0;
+    }
+    given
 }
 
 fn no_timing(
@@ -169,7 +186,9 @@ fn move_joints(
         }
     };
     let timing = match (m.duration_s, &m.limits) {
-        (Some(given), None) => JointTiming::Duration(duration(r, &path("duration_s"), given)),
+        (Some(given), None) => {
+            JointTiming::Duration(duration(r, &path("duration_s"), given, mission))
+        }
         (None, Some(limits)) => joint_limits(r, i, limits),
         (given, _) => return no_timing(r, at!["phase", i, "move_joints"], given),
     };

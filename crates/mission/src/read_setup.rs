@@ -253,7 +253,7 @@ pub(crate) fn setup(r: &mut Reading<'_>, file: &MissionFile) -> Setup<f64, JOINT
 }
 
 /// Lowest and highest control rate (Hz).
-const RATES: (f64, f64) = (0.01, 1e4);
+pub(crate) const RATES: (f64, f64) = (0.01, 1e4);
 
 fn tuning(r: &mut Reading<'_>, c: &crate::format::ControlFile) -> Tuning<f64> {
     let path = |key| [Step::Key("control"), Step::Key(key)];

@@ -214,3 +214,92 @@ fn all_metrics(quantities: &[Quantity]) -> Vec<String> {
     }
     all
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::quantity::quantities;
+
+    fn parse(text: &str) -> Result<Requirement, BadRequirement> {
+        let phases = ["reach".to_owned(), "hold on".to_owned()];
+        Requirement::parse(text, &quantities(&[("elbow".into(), true)]), &phases)
+    }
+
+    /// The verdict on a requirement when its quantity was seen to have these values in each phase.
+    #[track_caller]
+    fn verdict(text: &str, phases: [&[f64]; 2]) -> Verdict {
+        let quantities = quantities(&[("elbow".into(), true)]);
+        let requirement = parse(text).expect("a sound requirement");
+        let mut watch = Watch::new(quantities.clone(), 2);
+        for (phase, values) in phases.iter().enumerate() {
+            for value in *values {
+                let mut all = vec![f64::NAN; quantities.len()];
+                all[requirement.quantity] = *value;
+                watch.add(phase, &all);
+            }
+        }
+        requirement.verdict(&watch)
+    }
+
+    #[test]
+    fn a_value_at_its_limit_holds_where_equality_is_allowed() {
+        for (comparison, below, at, above) in [
+            ("<=", true, true, false),
+            ("<", true, false, false),
+            (">=", false, true, true),
+            (">", false, false, true),
+        ] {
+            let text = format!("energy.final {comparison} 2 J");
+            let holds = |value: f64| verdict(&text, [&[value], &[]]).pass;
+            assert_eq!([holds(1.0), holds(2.0), holds(3.0)], [below, at, above], "{comparison}");
+        }
+    }
+
+    #[test]
+    fn limit_and_value_are_in_the_unit_of_the_requirement() {
+        let found = verdict("tool.position_error.max <= 0.3 mm", [&[1e-4, -4e-4], &[2e-4]]);
+        assert_eq!((found.limit, found.unit.as_str(), found.pass), (0.3, "mm", false));
+        let value = found.value.expect("it was seen");
+        assert!((value - 0.4).abs() < 1e-15, "the largest, without its sign: {value}");
+        let found = verdict("joint.elbow.travel.final <= 90 deg", [&[1.0], &[0.5]]);
+        let value = found.value.expect("it was seen");
+        assert!((value - 0.5_f64.to_degrees()).abs() < 1e-13, "the last: {value}");
+        let found = verdict("joints.effort_use.max <= 100 %", [&[0.25], &[]]);
+        assert!((found.value.expect("it was seen") - 25.0).abs() < 1e-13);
+    }
+
+    #[test]
+    fn a_requirement_of_a_phase_sees_that_phase_only() {
+        let seen: [&[f64]; 2] = [&[3.0], &[1.0, 2.0]];
+        let value = |text: &str| verdict(text, seen).value;
+        assert_eq!(value("energy.max <= 1 J"), Some(3.0));
+        assert_eq!(value("energy.max <= 1 J during hold on"), Some(2.0));
+        assert_eq!(value("energy.final <= 1 J during reach"), Some(3.0));
+    }
+
+    #[test]
+    fn a_quantity_without_a_value_fails_its_requirement() {
+        for text in ["energy.max >= 0 J", "energy.max <= 1 J during hold on"] {
+            let found = verdict(text, [&[f64::NAN], &[]]);
+            assert_eq!((found.value, found.pass), (None, false), "{text}");
+        }
+        let unanswered = parse("energy.max <= 1 J").expect("sound").unanswered();
+        assert_eq!((unanswered.value, unanswered.pass), (None, false));
+    }
+
+    #[test]
+    fn every_unit_belongs_to_a_metric_and_every_metric_has_a_unit() {
+        for quantity in quantities(&[("a".into(), true), ("b".into(), false)]) {
+            let units = quantity.kind.units();
+            assert!(!units.is_empty(), "{}", quantity.name);
+            assert!(units.iter().any(|unit| quantity.kind.scale_of(unit) == Some(1.0)), "no SI");
+            for unit in units {
+                assert!(is_unit(unit));
+                let statistic = quantity.statistics[0].name();
+                let text = format!("{}.{statistic} <= 1 {unit}", quantity.name);
+                let one = [quantity.clone()];
+                assert!(Requirement::parse(&text, &one, &[]).is_ok(), "{text}");
+            }
+        }
+    }
+}

@@ -246,9 +246,9 @@ fn the_hurried_missions_are_flown_and_a_good_part_of_those_with_other_numbers() 
     let mut flown = 0;
     for text in SHIPPED.map(hurried) {
         assert!(fly(&text).expect("nothing contradicts itself"), "not flown:\n{text}");
-        for which in 0..40 {
+        for which in 0..15 {
             flown += usize::from(fly(&renumbered(&text, (which, 11))).expect("nor here"));
         }
     }
-    assert!(flown > 100, "the fuzz above flies next to nothing: {flown}");
+    assert!(flown > 90, "the fuzz above flies next to nothing: {flown}");
 }
