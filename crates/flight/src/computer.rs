@@ -377,7 +377,6 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
             ahead.q[j] += (sensed.v[j] + gain * half) * tuning.period * half;
             ahead.v[j] += gain;
         }
-        ahead.V_NB_B += self.motion.A_NB_B * (tuning.period * half);
         let coasting = matches!(self.path, Path::Still(Held::Nothing));
         let (effort, attitude_torque_B) = if coasting {
             ([T::zero(); J], Vec3::zero())

@@ -293,19 +293,53 @@ fn a_measured_error_is_taken_back_at_the_tool_gain() {
     worst.is_below(1e-5);
 }
 
-/// Integrates the arm under a command: torques constant over the period, attitude held exactly.
+/// Largest gap between the rates of a law that takes the base for fixed and the trapezium of its
+/// accelerations (rad/s), while the tool is held and the base really moves.
+fn gap_over_unexpected(V_NB_B: SpatialVelocity<f64>) -> Worst {
+    let phases = [Phase::Hold { what: Held::Tool, duration: 1.0 }];
+    let setup = setup(ArmLaw::Terrestrial, Measurement::Base);
+    let mut computer = FlightComputer::new(setup, &robot(), &phases);
+    let mut state = State { V_NB_B, ..at_rest() };
+    let (mut commands, mut worst) = (vec![], Worst::none());
+    while !computer.done() {
+        commands.push(computer.step(&Sensed { state }).unwrap());
+        let R = state.X_NB.rotation;
+        let half = Quat::exp(V_NB_B.angular * (0.5 * PERIOD)).to_matrix();
+        state.X_NB.rotation = R * Quat::exp(V_NB_B.angular * PERIOD).to_matrix();
+        state.X_NB.translation += R * half * V_NB_B.linear * PERIOD;
+    }
+    for j in 0..7 {
+        // The first period joins the rates of before.
+        for pair in of_joint(&at_rest(), &commands, j)[2..].windows(2) {
+            let gain = PERIOD * (pair[0].acceleration + pair[1].acceleration) / 2.0;
+            worst.see((pair[1].rate - pair[0].rate - gain).abs());
+        }
+    }
+    worst
+}
+
+/// How the tool's error grows by it is counted: measured 8.9e-8 rad/s. How the Jacobian turns by it is
+/// not: 5.5e-5 rad/s while the base turns at 0.037 rad/s.
+#[test]
+fn accelerations_know_of_base_motion_that_the_law_does_not_expect() {
+    let linear = vec3(0.02, -0.01, 0.03);
+    gap_over_unexpected(SpatialVelocity::new(Vec3::zero(), linear)).is_below(1e-6);
+    gap_over_unexpected(SpatialVelocity::new(vec3(0.01, -0.02, 0.03), linear)).is_below(1e-4);
+}
+
+/// Integrates the arm under a command: torques constant over the period.
 fn driven(
     robot: &Robot<f64, 7>,
     state: &State<f64, 7>,
     command: &Command<f64, 7>,
+    base: BaseMode,
 ) -> State<f64, 7> {
     let drives = command.effort.map(JointDrive::Effort);
     let steps = 4;
     let h = PERIOD / f64::from(steps);
     let nothing = PerBody::filled(SpatialForce::zero());
-    let rates = |s: &State<f64, 7>| {
-        driven_dynamics(&kinematics(robot, s), &drives, BaseMode::AttitudeHeld, &nothing).nudot
-    };
+    let rates =
+        |s: &State<f64, 7>| driven_dynamics(&kinematics(robot, s), &drives, base, &nothing).nudot;
     let on = |s: &State<f64, 7>,
               at: &State<f64, 7>,
               a: &Generalized<SpatialVelocity<f64>, f64, 7>,
@@ -315,8 +349,10 @@ fn driven(
             next.q[j] += at.v[j] * h;
             next.v[j] += a.joints[j] * h;
         }
-        next.X_NB.translation += s.X_NB.rotation * at.V_NB_B.linear * h;
-        next.V_NB_B.linear += a.base.linear * h;
+        let V = at.V_NB_B;
+        next.X_NB.rotation = s.X_NB.rotation * Quat::exp(V.angular * h).to_matrix();
+        next.X_NB.translation += at.X_NB.rotation * V.linear * h;
+        next.V_NB_B += a.base * h;
         next
     };
     (0..steps).fold(*state, |s, _| {
@@ -325,28 +361,35 @@ fn driven(
     })
 }
 
-/// The arm itself, driven by the commanded torques only, at 100 Hz: it follows the set-points to
-/// 6.8e-6 rad, measured; and the torque that the base is told is that of the middle of the period.
+/// The arm itself, driven by the commanded torques only: second order in the period, at 100 Hz it
+/// follows the set-points to 6.8e-6 rad with the attitude held and to 4.9e-5 rad with the base free,
+/// measured; and the torque on the base is that of the middle of the period.
 #[test]
 fn the_torques_carry_the_arm_along_the_set_points() {
-    let (robot, mut state) = (robot(), at_rest());
-    let mut setup = setup(ArmLaw::AttitudeHeld, Measurement::None);
-    setup.quat_ND = Quat::from_matrix(&state.X_NB.rotation);
-    let mut computer = FlightComputer::new(setup, &robot, &tour(Axes::Inertial));
-    let (mut off, mut torque) = (Worst::none(), Worst::none());
-    let mut now = state.q.map(|position| SetPoint { position, ..SetPoint::default() });
-    while !computer.done() {
-        let command = computer.step(&Sensed { state }).unwrap();
-        state = driven(&robot, &state, &command);
-        off.see_all(state.q, command.set_points.map(|s| s.position));
-        let middle = std::array::from_fn(|j| {
-            SetPointMotion::between(now[j], command.set_points[j], PERIOD).at(0.5 * PERIOD)
-        });
-        let fed = feedforward_torque(&robot, setup.feedforward, &middle);
-        torque.see((command.attitude_torque_B - fed).norm());
-        now = command.set_points;
+    let (mut off, mut torque, robot) = (Worst::none(), Worst::none(), robot());
+    for (law, base) in
+        [(ArmLaw::AttitudeHeld, BaseMode::AttitudeHeld), (ArmLaw::FreeFloating, BaseMode::Free)]
+    {
+        let mut state = at_rest();
+        let mut setup = setup(law, Measurement::None);
+        setup.quat_ND = Quat::from_matrix(&state.X_NB.rotation);
+        let mut computer = FlightComputer::new(setup, &robot, &tour(Axes::Inertial));
+        let mut now = state.q.map(|position| SetPoint { position, ..SetPoint::default() });
+        while !computer.done() {
+            let command = computer.step(&Sensed { state }).unwrap();
+            state = driven(&robot, &state, &command, base);
+            off.see_all(state.q, command.set_points.map(|s| s.position));
+            let middle = std::array::from_fn(|j| {
+                SetPointMotion::between(now[j], command.set_points[j], PERIOD).at(0.5 * PERIOD)
+            });
+            let fed = feedforward_torque(&robot, setup.feedforward, &middle);
+            if base == BaseMode::AttitudeHeld {
+                torque.see((command.attitude_torque_B - fed).norm());
+            }
+            now = command.set_points;
+        }
     }
-    off.is_below(5e-5);
+    off.is_below(1e-4);
     torque.is_below(1e-9);
 }
 

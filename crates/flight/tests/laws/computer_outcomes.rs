@@ -1,6 +1,6 @@
 //! The flight computer's phases: their order and end, what cannot begin, and the same bits again.
 
-use crate::arms::cube;
+use crate::arms::{cube, difference};
 use crate::flights::{Flight, PERIOD, aside, at_rest, drifting, robot, setup};
 use crate::postures::LAWS;
 use crate::worst::Worst;
@@ -49,6 +49,30 @@ fn phases_follow_each_other_and_then_all_is_done() {
         assert_eq!(command.set_points.map(|s| s.position), last.map(|s| s.position));
         assert!(flight.computer.done());
     }
+}
+
+/// The line ends where its target says: aside and turned by a rotation vector, in the phase's axes; or
+/// at a pose. Measured 7.0e-17 m or rad.
+#[test]
+fn a_tool_is_sent_aside_or_to_a_pose_in_the_axes_of_the_phase() {
+    let (mut worst, setup) = (Worst::none(), setup(ArmLaw::AttitudeHeld, Measurement::None));
+    let (displacement, turn) = (vec3(0.05, 0.1, -0.02), vec3(0.1, -0.2, 0.15));
+    for axes in [Axes::Inertial, Axes::Base] {
+        let X_NB = if axes == Axes::Base { Pose::identity() } else { at_rest().X_NB };
+        let seen = State { X_NB, ..at_rest() };
+        let X = kinematics(&robot(), &seen).pose(&setup.assignment.tool);
+        let turned = Quat::exp(turn).to_matrix() * X.rotation;
+        let end = Pose::new(turned, X.translation + displacement);
+        for target in [Target::By { displacement, turn }, Target::To(end)] {
+            let phases = [Phase::MoveTool { target, axes, timing: Timing::Duration(3.0) }];
+            let mut flight = Flight::new(&setup, at_rest(), &phases);
+            let last = *flight.fly_on().last().unwrap();
+            let (m, rad) = difference(&last.reference.X_NE, &end);
+            worst.see(m.max(rad));
+            assert_eq!(last.axes, axes);
+        }
+    }
+    worst.is_below(1e-14);
 }
 
 #[test]

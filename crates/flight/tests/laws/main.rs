@@ -19,4 +19,5 @@ mod flights;
 mod postures;
 mod resolved_motion;
 mod singular_postures;
+mod tool_pose;
 mod worst;
