@@ -24,7 +24,15 @@ pub(crate) fn tell(text: &str) {
     let _ = writeln!(std::io::stderr(), "{}", text.trim_end());
 }
 
-/// Print to standard output. A reader who has gone away is no error of ours.
+/// Print to standard output. A reader who has gone away is no error of ours; a full disk ends the
+/// program, for an answer that is cut short must not pass for a whole one.
 pub(crate) fn say(text: &str) {
-    let _ = writeln!(std::io::stdout(), "{}", text.trim_end());
+    let mut out = std::io::stdout();
+    let printed = writeln!(out, "{}", text.trim_end()).and_then(|()| out.flush());
+    if let Err(error) = printed
+        && error.kind() != std::io::ErrorKind::BrokenPipe
+    {
+        tell(&format!("error: standard output cannot be written: {error}"));
+        std::process::exit(2);
+    }
 }

@@ -384,6 +384,25 @@ fn a_reader_who_goes_away_is_no_error() {
     assert_eq!(folder.names("out/small"), RESULTS);
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn an_answer_that_cannot_be_written_out_is_not_a_success() {
+    let folder = with_mission(SMALL);
+    folder.put("states.json", r#"{ "frame": "tool", "states": [{}] }"#);
+    for arguments in [
+        &["vehicles"][..],
+        &["schema", "mission"],
+        &["eval", "atlas-class", "--states", "states.json"],
+        &["run", "mission.toml", "--json"],
+    ] {
+        let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let output = folder.command(arguments).stdout(full).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+        assert!(said.starts_with("error: standard output cannot be written: "), "{said}");
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn an_interrupted_run_leaves_no_half_results_and_spares_the_former_ones() {
