@@ -2,6 +2,7 @@
 
 mod sample;
 
+use wrasse_mission::{Event, EventKind};
 use wrasse_record::verdict_table;
 
 #[test]
@@ -16,6 +17,7 @@ tool.position_error.final during hold  <= 0.02   0.0017  mm     pass
 
 momentum  ledger closes: angular 3.1e-14 of 48.2 N·m·s unexplained (6.4e-16, bound 1.0e-12); linear 1.2e-14 of 14.6 N·s unexplained (8.2e-16, bound 1.0e-12)
 energy    ledger closes: 2.4e-12 of 0.391 J unexplained (6.1e-12, bound 1.0e-8); joints 0.0123 J, actuator -0.0123 J, outside 0 J, grasps 0 J
+integration error, from a second run at half the step: base.attitude 3.1e-12 rad
 ";
     assert_eq!(format!("\n{}", verdict_table(&sample::single())), expected);
 }
@@ -47,4 +49,17 @@ momentum  ledger closes: angular 3.1e-14 of 48.2 N·m·s unexplained (6.4e-16, b
 energy    ledger closes: 2.4e-12 of 0.391 J unexplained (6.1e-12, bound 1.0e-8); joints 0.0123 J, actuator -0.0123 J, outside 0 J, grasps 0 J
 ";
     assert_eq!(format!("\n{}", verdict_table(&sample::compared())), expected);
+}
+
+#[test]
+fn a_limit_that_was_reached_is_told_between_verdicts_and_ledger() {
+    let mut outcome = sample::single();
+    outcome.cases[0].events.push(Event {
+        time_s: 7.25,
+        kind: EventKind::Limit,
+        text: "attitude actuator full: 25 N·m·s about z".into(),
+    });
+    let table = verdict_table(&outcome);
+    let told = table.find("\nat 7.25 s: attitude actuator full: 25 N·m·s about z\n");
+    assert!(told.expect("it is told") < table.find("momentum  ledger").expect("the ledger"));
 }
