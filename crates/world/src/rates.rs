@@ -99,7 +99,7 @@ impl<const J: usize> World<J> {
             linear: force,
             angular: torque_N + torque,
             from_actuator: torque_N,
-            from_outside: torque + self.beside_common_centre(p_NScm_N, t0 + t).cross(force),
+            from_outside: torque + self.beside_the_centre_of_all(p_NScm_N, t0 + t).cross(force),
             work,
         }
     }
@@ -108,7 +108,7 @@ impl<const J: usize> World<J> {
 impl<const J: usize> World<J> {
     /// From the centre of mass of vehicle and free bodies to that of the vehicle at `p_NScm_N`, `t`
     /// (s) into the current set-points (m). The ledger counts about the first.
-    fn beside_common_centre(&self, p_NScm_N: Vec3<f64>, t: f64) -> Vec3<f64> {
+    fn beside_the_centre_of_all(&self, p_NScm_N: Vec3<f64>, t: f64) -> Vec3<f64> {
         let (mut mass, mut moment) = (self.mass, Vec3::zero());
         for body in &self.free {
             // They are moved after the vehicle: seen from there they are still at the start.
