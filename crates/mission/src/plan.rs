@@ -5,7 +5,7 @@ use crate::arm_shape::{reach_margin, smallest_singular_value};
 use crate::mission::{Case, PayloadStart};
 use crate::outcome::{End, PlanLine};
 use wrasse_dynamics::{Frame, Payload, Robot, kinematics};
-use wrasse_flight::{BadPhase, FlightComputer, Grip, NoWay, Sensed};
+use wrasse_flight::{BadPhase, FlightComputer, Grip, NoWay, Sensed, Task};
 use wrasse_spatial::{Quat, Vec3};
 use wrasse_vehicle::JOINTS;
 use wrasse_world::FreeBody;
@@ -193,7 +193,11 @@ impl<'a> Belief<'a> {
             return None;
         }
         notes.singular = notes.singular.min(singular);
-        let (off, turned) = self.computer.believed_tool_error();
+        let (off, turned) = match (case.setup.assignment.task, self.computer.believed_tool_error())
+        {
+            (Task::Pose, error) => error,
+            (Task::Position, (off, _)) => (off, 0.0),
+        };
         (off > OFF_THE_WAY.0 || turned > OFF_THE_WAY.1).then(|| {
             format!(
                 "{:.3} m along the way the tool falls behind its reference by {:.3} mm and {:.4} deg; \
