@@ -222,7 +222,7 @@ pub(crate) fn setup(r: &mut Reading<'_>, file: &MissionFile) -> Setup<f64, JOINT
     limits.iter_mut().zip(&r.vehicle.limits).for_each(|(to, from)| *to = *from);
     Setup {
         assignment: Assignment {
-            tool: tool(r, &path("tool"), c.tool.as_deref()),
+            tool: guided_tool(r, &path("tool"), c.tool.as_deref()),
             axes: Axes::Inertial,
             task: match c.task {
                 TaskFile::Pose => Task::Pose,
@@ -268,7 +268,22 @@ fn tuning(r: &mut Reading<'_>, c: &crate::format::ControlFile) -> Tuning<f64> {
     }
 }
 
-/// The tool that is guided: by name, or the vehicle's first, or the last link's frame.
+/// The tool that is guided; an error if it was chosen and no joint moves it.
+fn guided_tool(r: &mut Reading<'_>, path: &[Step<'_>], name: Option<&str>) -> Frame<f64> {
+    let before = r.complaints.len();
+    let guided = tool(r, path, name);
+    if let Some(name) = name
+        && r.complaints.len() == before
+        && guided.body == BodyId::Base
+    {
+        let message = format!("{name} is fixed to the base: no joint moves it");
+        let help = format!("choose a tool: {}", r.vehicle.tools.join(", "));
+        r.error(path, message, &help);
+    }
+    guided
+}
+
+/// A tool or frame by its name; without one the vehicle's first tool, or the last link's frame.
 pub(crate) fn tool(r: &mut Reading<'_>, path: &[Step<'_>], name: Option<&str>) -> Frame<f64> {
     let names: Vec<String> = r.vehicle.frames.iter().map(|f| f.name.clone()).collect();
     let base = Frame { body: BodyId::Base, X_BF: Pose::identity() };

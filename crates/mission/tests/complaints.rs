@@ -81,6 +81,12 @@ fn a_vehicle_that_is_not_there_is_named() {
 }
 
 #[test]
+fn a_tool_that_no_joint_moves_is_refused() {
+    let words = ["small.toml:8:8", "base is fixed to the base: no joint moves it", "tool: tool"];
+    assert_says("[[phase]]", "[control]\ntool = \"base\"\n\n[[phase]]", &words);
+}
+
+#[test]
 fn a_text_that_is_not_toml_is_answered_with_its_place() {
     assert_says("duration_s = 1.0", "duration_s = 1 s", &["not TOML", "small.toml:9"]);
 }
