@@ -219,3 +219,33 @@ fn the_error_of_the_adaptive_stepper_follows_its_tolerance() {
         before = now;
     }
 }
+
+/// A push of a tenth of a second, after a second in which long steps do: the step that meets it is
+/// taken back. Measured off after 2 s: attitude 2.3e-10,
+/// joint rates 6.5e-10; where every step is taken, 1.5e-5 and 3.8e-5.
+#[test]
+fn a_step_that_meets_a_sudden_push_is_taken_back() {
+    let flown = |stepper| {
+        let mut world = World::new(&WorldSetup {
+            robot: &branched::robot(),
+            limits: &[],
+            actuator: None,
+            base: BaseAttitude::Free,
+            stepper,
+            start: moving(),
+            held: &[],
+        });
+        world.set_outside_wrench(Box::new(|t| {
+            let mut on = PerBody::filled(SpatialForce::zero());
+            let late = (t - 1.0) / 0.03;
+            on[BodyId::Link(1)].force.y = 20.0 * (-late * late).exp();
+            on
+        }));
+        end(world, &[Drive::Effort(0.0); J], SPAN)
+    };
+    let tolerance = 1e-9;
+    let off =
+        errors(&flown(Stepper::Adaptive { tolerance }), &flown(Stepper::Fixed { step: 5e-4 }));
+    assert!(off[0] < 10.0 * tolerance, "attitude off by {:e} rad", off[0]);
+    assert!(off[2] < 10.0 * tolerance, "joint rates off by {:e}", off[2]);
+}

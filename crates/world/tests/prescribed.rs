@@ -65,6 +65,19 @@ fn joints_that_follow_are_where_their_set_points_are() {
     }
 }
 
+/// 49 steps of 1/49 s are not one second to the bit; the period is.
+#[test]
+fn the_last_step_of_a_period_ends_where_the_period_does() {
+    let mut world = branched::world(moving(), BaseAttitude::Free, 1.0 / 48.5);
+    let whole = |j| SetPointMotion::between(set_point(j, 0), set_point(j, 100), 1.0);
+    world.command(&core::array::from_fn::<_, J, _>(|j| Drive::Follow(whole(j))), Vec3::zero(), 1.0);
+    world.advance(1.0).expect("stays finite");
+    for j in 0..J {
+        assert_eq!(world.system().q[j], whole(j).at(1.0).position);
+        assert_eq!(world.system().v[j], whole(j).at(1.0).rate);
+    }
+}
+
 /// Acceleration of the base that the flown motion shows: its twist at five instants `h` (s) apart,
 /// and the state and forces in the middle.
 fn seen(base: BaseAttitude, h: f64) -> (SpatialVelocity<f64>, State<f64, J>, Dynamics<f64, J>) {
