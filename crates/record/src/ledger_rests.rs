@@ -32,3 +32,10 @@ pub(crate) fn ledger_rests(ledger: &Ledger) -> [Rest; 3] {
         rest("J", ledger.energy_rest, ledger.energy_scale, energy),
     ]
 }
+
+impl Rest {
+    /// Whether the rest is within its bound.
+    pub(crate) fn within(&self) -> bool {
+        self.relative <= self.bound
+    }
+}

@@ -154,6 +154,10 @@ fn worst_ledger(cases: &[CaseOutcome]) -> Option<&CaseOutcome> {
     cases.iter().reduce(|worst, case| if share(case) > share(worst) { case } else { worst })
 }
 
+/// What to try when the ledger does not close.
+const OPEN: &str = "          an open ledger fails the run; a smaller world.step_s closes it if the \
+                    integration is the reason\n";
+
 /// One line for momentum and one for energy.
 fn ledger_lines(ledger: &Ledger, whose: &str) -> String {
     let [angular, linear, energy] = ledger_rests(ledger);
@@ -167,12 +171,15 @@ fn ledger_lines(ledger: &Ledger, whose: &str) -> String {
             power(rest.bound)
         )
     };
-    let closes = if ledger.closes { "ledger closes" } else { "LEDGER OPEN" };
+    let closes = |within: bool| if within { "ledger closes" } else { "LEDGER OPEN" };
+    let hint = if ledger.closes { "" } else { OPEN };
     format!(
-        "momentum  {closes}: angular {}; linear {}{whose}\n\
-         energy    {closes}: {}; joints {} J, actuator {} J, outside {} J, grasps {} J\n",
+        "momentum  {}: angular {}; linear {}{whose}\n\
+         energy    {}: {}; joints {} J, actuator {} J, outside {} J, grasps {} J\n{hint}",
+        closes(angular.within() && linear.within()),
         told(&angular),
         told(&linear),
+        closes(energy.within()),
         told(&energy),
         significant(ledger.work_of_joints),
         significant(ledger.work_of_actuator),

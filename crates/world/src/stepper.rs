@@ -22,7 +22,7 @@ pub enum Stepper {
     },
     /// Dormand–Prince 5(4), the step chosen so that each component keeps the tolerance.
     Adaptive {
-        /// Error allowed in each step (rad, m, and their rates).
+        /// Error allowed in each step (rad, m, their rates, N·m·s, J).
         tolerance: f64,
     },
 }
