@@ -106,6 +106,7 @@ impl<T: Scalar, const J: usize> Flight<T, J> {
     pub(crate) fn fly_on(&mut self) -> Vec<Command<T, J>> {
         let mut commands = vec![];
         while !self.computer.done() {
+            assert!(commands.len() < 10_000, "it never ends");
             commands.push(self.step().unwrap());
         }
         commands
