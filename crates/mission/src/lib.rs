@@ -16,6 +16,7 @@ mod read_mission;
 mod read_payload;
 mod read_phase;
 mod read_setup;
+mod reading;
 mod requirement;
 mod run;
 mod telemetry;

@@ -2,8 +2,8 @@
 
 use crate::format::{FreeFile, MissionFile, PayloadFile};
 use crate::mission::{PayloadCase, PayloadStart};
-use crate::read_mission::Reading;
 use crate::read_setup::{attitude, radians, tool, vector};
+use crate::reading::Reading;
 use wrasse_document::{Step, at};
 use wrasse_dynamics::{Payload, State, kinematics};
 use wrasse_spatial::{Pose, SpatialVelocity, Sym3};

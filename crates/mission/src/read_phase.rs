@@ -6,10 +6,10 @@ use crate::phase_format::{
     AxesFile, GraspFile, JointLimitsFile, KeepFile, MoveJointsFile, MoveToolFile, PhaseFile,
     ShapeFile, ToolLimitsFile, ToolPoseFile,
 };
-use crate::read_mission::Reading;
 use crate::read_setup::{
     RATES, attitude, axes, by_joint, place_of_position, posture, radians, vector,
 };
+use crate::reading::Reading;
 use wrasse_document::{Step, at};
 use wrasse_dynamics::JointKind;
 use wrasse_flight::trajectory::{MotionLimits, ProfileShape};

@@ -5,7 +5,7 @@ use crate::format::{
     TaskFile,
 };
 use crate::phase_format::AxesFile;
-use crate::read_mission::Reading;
+use crate::reading::Reading;
 use std::collections::BTreeMap;
 use wrasse_document::{Step, at};
 use wrasse_dynamics::{BodyId, Frame, JointKind, State};
