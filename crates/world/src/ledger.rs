@@ -134,7 +134,7 @@ impl Ledger {
 
 #[cfg(test)]
 mod tests {
-    use crate::{BaseAttitude, Drive, Ledger, Stepper, World, WorldSetup};
+    use crate::{BaseAttitude, Drive, FreeBody, Ledger, Stepper, World, WorldSetup};
     use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, Payload, Robot, State};
     use wrasse_spatial::{Pose, SpatialVelocity, Sym3, Vec3, vec3};
 
@@ -238,5 +238,28 @@ mod tests {
         ledger.now.angular.x -= 1e-3;
         assert!(ledger.rests()[0] < 1e-12);
         assert_eq!(ledger.worst[0], worst);
+    }
+
+    /// Two bodies in one place that fly and spin against each other: no momentum, twice the scale.
+    #[test]
+    fn the_scale_is_the_sum_of_what_each_body_has() {
+        let matter = Payload::from_central(10.0, Vec3::zero(), Sym3::diagonal(4.0, 4.0, 4.0));
+        let robot: Robot<f64, 1> = Robot::new(matter, &[]).unwrap();
+        let (V, o) =
+            (SpatialVelocity::from_array([0.5, 0.0, 0.0, 0.0, 0.25, 0.0]), Pose::identity());
+        let mut world = World::new(&WorldSetup {
+            robot: &robot,
+            limits: &[],
+            actuator: None,
+            base: BaseAttitude::Free,
+            stepper: Stepper::Fixed { step: 0.01 },
+            start: State { V_NB_B: V, ..State::default() },
+            held: &[],
+        });
+        world.add_free_body(FreeBody::new(matter, &o, &-V));
+        let account = world.account();
+        assert_eq!((account.angular, account.linear), (Vec3::zero(), Vec3::zero()));
+        assert_eq!((account.angular_scale, account.linear_scale), (4.0, 5.0));
+        assert_eq!(account.energy, 2.0 * (0.5 * 4.0 * 0.25 + 0.5 * 10.0 * 0.0625));
     }
 }

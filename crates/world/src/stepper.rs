@@ -127,4 +127,12 @@ mod tests {
         }
         assert!(ERROR.iter().sum::<f64>().abs() < 1e-16);
     }
+
+    /// 0.07/0.01 is 7.000000000000001 in floating point.
+    #[test]
+    fn a_period_of_seven_steps_has_seven_steps() {
+        assert_eq!(equal_steps(0.07, 0.01), (7.0, 0.07 / 7.0));
+        assert_eq!(equal_steps(0.07, 0.011), (7.0, 0.07 / 7.0));
+        assert_eq!(equal_steps(0.01, 1.0), (1.0, 0.01));
+    }
 }
