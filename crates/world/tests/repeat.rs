@@ -81,7 +81,7 @@ fn a_period_in_parts_is_the_same_period_where_the_steps_are_the_same() {
 }
 
 /// Parts that the steps do not fit: other steps, the same motion. Measured apart: 1.4e-12 and
-/// 9e-16.
+/// 7e-16.
 #[test]
 fn a_period_in_parts_of_other_steps_is_the_same_motion() {
     let whole = flown(Stepper::Adaptive { tolerance: 1e-12 }, 1).0;
