@@ -2,16 +2,17 @@
 
 use crate::attitude_control::attitude_torque;
 use crate::computed_torque::computed_torque;
-use crate::door::{Axes, Command, Sensed};
+use crate::door::{Axes, Command, Grip, Sensed};
 use crate::feedforward::feedforward_torque;
 use crate::law::{Feedforward, Measurement, Tuning};
-use crate::phase::{Held, JointTarget, JointTiming, PHASES, Path, Phase};
+use crate::phase::{Held, JointTarget, Path, Phase};
 use crate::resolved_motion::{
     Assignment, Belief, JointUse, Resolved, ResolvedMotion, WantedMotion, answered_motion,
     answered_twist, resolved_motion, task_jacobian,
 };
-use crate::tool_pose::{Unreachable, joints_for_tool};
-use crate::trajectory::{BadNumbers, JointMove, Profile, Quintic, ToolMotion};
+use crate::sequence::{BadPhase, NoWay, Sequence};
+use crate::tool_pose::joints_for_tool;
+use crate::trajectory::ToolMotion;
 use wrasse_dynamics::{Frame, Robot, State, kinematics, mass_matrix, momentum};
 use wrasse_hardware::{JointLimits, SetPoint, SetPointMotion};
 use wrasse_spatial::{
@@ -37,44 +38,16 @@ pub struct Setup<T, const J: usize> {
     pub quat_ND: Quat<T>,
 }
 
-/// A phase that cannot begin.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BadPhase<T> {
-    /// Number of the phase.
-    pub phase: usize,
-    /// Why.
-    pub reason: NoWay<T>,
-}
-
-/// Why there is no way to go.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum NoWay<T> {
-    /// Its numbers describe no motion.
-    Numbers(BadNumbers),
-    /// No joint positions bring the tool to its pose.
-    Unreachable(Unreachable<T>),
-}
-impl<T> From<BadNumbers> for NoWay<T> {
-    fn from(numbers: BadNumbers) -> Self {
-        Self::Numbers(numbers)
-    }
-}
-
 /// What flies: one call per control period.
 #[derive(Debug, Clone, Copy)]
 pub struct FlightComputer<T, const J: usize> {
     setup: Setup<T, J>,
     robot: Robot<T, J>,
     dual_robot: Robot<Dual<T>, J>,
-    phases: [Option<Phase<T, J>>; PHASES],
-    phase: usize,
+    sequence: Sequence<T, J>,
     path: Path<T, J>,
-    /// Periods since the path began, and of the path.
-    elapsed: u32,
-    length: u32,
-    /// Whether the sensors were read once, and the first phase has begun.
+    /// Whether the sensors were read once.
     started: bool,
-    begun: bool,
     belief: Belief<T, J>,
     /// Set-points and motion at the start of the coming period.
     now: [SetPoint<T>; J],
@@ -85,33 +58,18 @@ pub struct FlightComputer<T, const J: usize> {
     axes: Axes,
 }
 
-/// Periods that cover a duration.
-fn periods<T: Scalar>(duration: T, period: T) -> u32 {
-    let count = (duration / period).to_f64() - 1e-9;
-    // The cast saturates: a bad duration was refused before.
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "rounds up by one")]
-    let whole = count.max(0.0) as u32;
-    if f64::from(whole) < count { whole + 1 } else { whole.max(1) }
-}
-
 impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     /// A computer for this robot (with what it holds at the start) and these phases; those beyond
-    /// [`PHASES`] are left out.
+    /// [`PHASES`](crate::PHASES) are left out.
     pub fn new(setup: Setup<T, J>, robot: &Robot<f64, J>, phases: &[Phase<T, J>]) -> Self {
-        let mut list = [None; PHASES];
-        list.iter_mut().zip(phases).for_each(|(to, from)| *to = Some(*from));
         let rest = Resolved { qdot: [T::zero(); J], V_NB_B: SpatialVelocity::zero() };
         Self {
             setup,
             robot: robot.cast(),
             dual_robot: robot.cast(),
-            phases: list,
-            phase: 0,
+            sequence: Sequence::new(phases),
             path: Path::Still(Held::Joints),
-            elapsed: 0,
-            length: 0,
             started: false,
-            begun: false,
             belief: Belief {
                 X_NB: Pose::identity(),
                 q: [T::zero(); J],
@@ -140,14 +98,16 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     pub fn step(&mut self, sensed: &Sensed<T, J>) -> Result<Command<T, J>, BadPhase<T>> {
         self.look(&sensed.state);
         let mut grip = None;
-        if self.elapsed >= self.length {
-            grip = self.begin_next()?;
+        if self.sequence.is_over() {
+            let begun = self.begin_next();
+            let phase = self.sequence.number();
+            grip = begun.map_err(|reason| BadPhase { phase, reason })?;
         }
         let period = self.setup.tuning.period;
-        self.elapsed += 1;
+        let elapsed = self.sequence.tick();
         let (from, began) = (self.belief, self.motion);
         self.predict(period);
-        self.follow(T::from_f64(f64::from(self.elapsed)) * period);
+        self.follow(T::from_f64(f64::from(elapsed)) * period);
         self.correct(&from, &began, period);
         let mut next = [SetPoint::default(); J];
         for j in self.robot.joints() {
@@ -170,8 +130,9 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
             self.belief.X_NB = sensed.X_NB;
             self.belief.h_Scm_N = momentum_of(&self.robot, sensed);
         }
-        if !self.started {
-            self.start(sensed);
+        let coasting = matches!(self.path, Path::Still(Held::Nothing));
+        if !self.started || coasting {
+            self.start_from(sensed);
         }
         if measured {
             self.surprise = sensed.V_NB_B - self.motion.rate.V_NB_B;
@@ -179,8 +140,9 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         }
     }
 
-    /// Begin where the joints are, with the base moving as the law says.
-    fn start(&mut self, sensed: &State<T, J>) {
+    /// Begin where the joints are, with the base moving as the law says: at the start, and as long
+    /// as nothing drives them.
+    fn start_from(&mut self, sensed: &State<T, J>) {
         self.started = true;
         self.belief.q = sensed.q;
         for j in self.robot.joints() {
@@ -207,59 +169,46 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     }
 
     /// Begin the next phase; what it tells the grip.
-    fn begin_next(&mut self) -> Result<Option<crate::Grip>, BadPhase<T>> {
-        let next = if self.begun { self.phase + 1 } else { 0 };
-        self.begun = true;
-        self.phase = next;
-        self.elapsed = 0;
-        let Some(phase) = self.phases.get(next).copied().flatten() else {
-            (self.path, self.length) = (Path::Still(Held::Joints), u32::MAX);
-            return Ok(None);
-        };
+    fn begin_next(&mut self) -> Result<Option<Grip>, NoWay<T>> {
+        let period = self.setup.tuning.period;
         let mut grip = None;
-        let path = match phase {
-            Phase::MoveTool { target, axes, timing } => {
+        let (path, duration) = match self.sequence.next() {
+            None => {
+                self.path = Path::Still(Held::Joints);
+                return Ok(None);
+            }
+            Some(Phase::MoveTool { target, axes, timing }) => {
                 let from = self.believed_tool(axes);
-                let line = timing.line(from, target.from(&from)).map_err(NoWay::from);
-                line.map(|line| (Path::Line(line, axes), line.duration()))
+                let line = timing.line(from, target.from(&from))?;
+                (Path::Line(line, axes), line.duration())
             }
-            Phase::MoveJoints { to, timing } => {
-                self.joint_move(to, &timing).map(|path| (Path::Joints(path), path.duration()))
+            Some(Phase::MoveJoints { to, timing }) => {
+                let way = timing.way(self.belief.q, self.joint_target(to)?)?;
+                (Path::Joints(way), way.duration())
             }
-            Phase::Hold { what, duration } => Ok((Path::Still(what), duration)),
-            Phase::Grip(told) => {
+            Some(Phase::Hold { what, duration }) => (Path::Still(what), duration),
+            Some(Phase::Grip(told)) => {
                 grip = Some(told);
-                Ok((Path::Still(Held::Joints), self.setup.tuning.period))
+                (Path::Still(Held::Joints), period)
             }
         };
-        let (path, duration) = path.map_err(|reason| BadPhase { phase: next, reason })?;
         self.path = path;
-        self.length = periods(duration, self.setup.tuning.period);
+        self.sequence.lasts(duration, period)?;
         Ok(grip)
     }
 
-    fn joint_move(
-        &self,
-        to: JointTarget<T, J>,
-        timing: &JointTiming<T, J>,
-    ) -> Result<JointMove<T, J>, NoWay<T>> {
+    /// Joint positions (rad or m) to go to.
+    fn joint_target(&self, to: JointTarget<T, J>) -> Result<[T; J], NoWay<T>> {
         let q = self.belief.q;
-        let to = match to {
-            JointTarget::Positions(to) => core::array::from_fn(|j| to[j].unwrap_or(q[j])),
+        match to {
+            JointTarget::Positions(to) => Ok(core::array::from_fn(|j| to[j].unwrap_or(q[j]))),
             JointTarget::Tool(X, axes) => {
                 let (tool, law) = (&self.setup.assignment.tool, self.setup.assignment.law);
                 let state = State { X_NB: self.belief.X_NB, q, ..State::default() };
                 joints_for_tool(&self.robot, tool, &state, &X, axes, law, &self.setup.limits)
-                    .map_err(NoWay::Unreachable)?
+                    .map_err(NoWay::Unreachable)
             }
-        };
-        Ok(match timing {
-            JointTiming::Duration(duration) => {
-                let profile = Profile::Quintic(Quintic::new(T::one(), *duration)?);
-                JointMove::new(q, to, profile)?
-            }
-            JointTiming::Limits { shape, limits } => JointMove::within(q, to, *shape, limits)?,
-        })
+        }
     }
 
     /// Where the vehicle is believed to be one period on, first from its motion now alone.
@@ -300,11 +249,11 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         match self.path {
             Path::Line(line, axes) => {
                 (self.reference, self.axes) = (line.at(t), axes);
-                self.follow_tool();
+                self.follow_tool(t);
             }
             Path::Still(Held::Tool) => {
                 self.reference = at_rest(self.reference.X_NE);
-                self.follow_tool();
+                self.follow_tool(t);
             }
             Path::Joints(path) => {
                 let at = path.at(t);
@@ -324,19 +273,34 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         }
     }
 
-    /// Joint motion that keeps the tool on its reference.
-    fn follow_tool(&mut self) {
+    /// How the joints may be used at time `t` (s) of the phase: the drift to the posture comes and
+    /// goes as the speed of a quintic does, `30 s² (1 - s)²`, for rates that jumped would ask for any
+    /// torque.
+    fn joint_use(&self, t: T) -> JointUse<T, J> {
+        let (c, gain) = (T::from_f64, self.setup.joints.gain);
+        let duration = self.sequence.duration(self.setup.tuning.period);
+        let s = t / duration;
+        let rest = T::one() - s;
+        JointUse {
+            gain: gain * c(30.0) * s * s * rest * rest,
+            gain_rate: gain * c(60.0) * s * rest * (rest - s) / duration,
+            ..self.setup.joints
+        }
+    }
+
+    /// Joint motion that keeps the tool on its reference, at time `t` (s) of the phase.
+    fn follow_tool(&mut self, t: T) {
         let X = self.believed_tool(self.axes);
         let R_error = self.reference.X_NE.rotation * X.rotation.transpose();
         let error = SpatialVelocity::new(
             Quat::from_matrix(&R_error).log(),
             self.reference.X_NE.translation - X.translation,
         );
-        let gain = self.setup.tuning.tool_gain;
+        let back = self.setup.tuning.tool_gain;
         let wanted = WantedMotion {
-            V_NE: self.reference.V_NE_N + error * gain,
+            V_NE: self.reference.V_NE_N + error * back,
             // The error dies out as it is told to, but for what the law did not expect of the base.
-            Vdot_NE: self.reference.Vdot_NE_N - (error * gain + self.surprise_at_tool(&X)) * gain,
+            Vdot_NE: self.reference.Vdot_NE_N - (error * back + self.surprise_at_tool(&X)) * back,
         };
         let to = Assignment { axes: self.axes, ..self.setup.assignment };
         self.motion = resolved_motion(
@@ -345,7 +309,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
             &to,
             &self.belief,
             &wanted,
-            &self.setup.joints,
+            &self.joint_use(t),
         );
     }
 
@@ -378,7 +342,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
             ahead.v[j] += gain;
         }
         let coasting = matches!(self.path, Path::Still(Held::Nothing));
-        let (effort, attitude_torque_B) = if coasting {
+        let (mut effort, attitude_torque_B) = if coasting {
             ([T::zero(); J], Vec3::zero())
         } else {
             let law = self.setup.assignment.law;
@@ -387,12 +351,20 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
                 self.attitude_torque(sensed, &middle),
             )
         };
+        // A drive that saturated alone would let the others throw the arm off its way.
+        let mut share = T::one();
+        for j in self.robot.joints() {
+            if let Some(limit) = self.setup.limits[j].effort {
+                share = share.min(limit / limit.max(effort[j].abs()));
+            }
+        }
+        effort = effort.map(|tau| tau * share);
         Command {
             set_points: *next,
             effort,
             attitude_torque_B,
             grip: None,
-            phase: self.phase,
+            phase: self.sequence.number(),
             reference: self.reference,
             axes: self.axes,
         }
@@ -460,9 +432,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
 
     /// Whether all phases are done.
     pub fn done(&self) -> bool {
-        let none = |phase| self.phases.get(phase).is_none_or(Option::is_none);
-        let over = none(self.phase) || (none(self.phase + 1) && self.elapsed >= self.length);
-        self.begun && over
+        self.sequence.is_done()
     }
 }
 

@@ -13,11 +13,12 @@ mod feedforward;
 mod law;
 mod phase;
 mod resolved_motion;
+mod sequence;
 mod tool_pose;
 
 pub use attitude_control::attitude_torque;
 pub use computed_torque::computed_torque;
-pub use computer::{BadPhase, FlightComputer, NoWay, Setup};
+pub use computer::{FlightComputer, Setup};
 pub use door::{Axes, Command, Grip, Sensed};
 pub use feedforward::feedforward_torque;
 pub use law::{ArmLaw, Feedforward, Measurement, Task, Tuning};
@@ -26,4 +27,5 @@ pub use resolved_motion::{
     Assignment, Belief, JointUse, Resolved, ResolvedMotion, WantedMotion, answered_motion,
     joint_rates, resolved_motion, task_jacobian,
 };
+pub use sequence::{BadPhase, NoWay};
 pub use tool_pose::{Unreachable, joints_for_tool};

@@ -137,3 +137,15 @@ impl<T: Scalar> Timing<T> {
         }
     }
 }
+
+impl<T: Scalar, const J: usize> JointTiming<T, J> {
+    /// The way from one posture to another (rad or m).
+    pub(crate) fn way(&self, from: [T; J], to: [T; J]) -> Result<JointMove<T, J>, BadNumbers> {
+        match self {
+            Self::Duration(duration) => {
+                JointMove::new(from, to, Profile::Quintic(Quintic::new(T::one(), *duration)?))
+            }
+            Self::Limits { shape, limits } => JointMove::within(from, to, *shape, limits),
+        }
+    }
+}

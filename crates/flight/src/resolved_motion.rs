@@ -31,6 +31,8 @@ pub struct Assignment<T> {
 pub struct JointUse<T, const J: usize> {
     /// Drift towards the posture (1/s); zero for joint rates of least norm.
     pub gain: T,
+    /// How fast the gain changes (1/s²).
+    pub gain_rate: T,
     /// The posture (rad or m).
     pub posture: [T; J],
     /// Largest rate of each joint (rad/s or m/s): where one would pass it, all are slowed down
@@ -231,7 +233,8 @@ pub fn resolved_motion<T: Real, const J: usize>(
     let V = dual_velocity(&wanted.V_NE, &wanted.Vdot_NE);
     let constant = |x: T| Dual::new(x, T::zero());
     let joints = JointUse {
-        gain: constant(joints.gain),
+        gain: Dual::new(joints.gain, joints.gain_rate),
+        gain_rate: constant(joints.gain_rate),
         posture: joints.posture.map(constant),
         rate_limit: joints.rate_limit.map(constant),
     };

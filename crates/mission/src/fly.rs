@@ -208,7 +208,14 @@ impl<'a> Flight<'a> {
             }
         }
         let broken = self.world.advance(period).err()?;
-        Some(End::Breakdown { time_s: broken.time, reason: broken.quantity })
+        let quantity = match broken.joint {
+            Some(j) => format!("position or rate of joint {}", self.case.joint_name(j)),
+            None => broken.quantity,
+        };
+        Some(End::Breakdown {
+            time_s: broken.time,
+            reason: format!("{quantity} is no longer finite"),
+        })
     }
 
     /// Say which limits the truth passes, each once in a phase.

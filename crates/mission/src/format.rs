@@ -250,7 +250,7 @@ pub(crate) enum TaskFile {
 pub(crate) struct RedundancyFile {
     /// A posture that the vehicle file names.
     pub(crate) posture: String,
-    /// How fast.
+    /// How fast, on average over a phase: the drift fades in and out with it.
     pub(crate) gain_per_s: f64,
 }
 

@@ -242,6 +242,9 @@ fn finished(case: &Case, phase: usize, notes: &PhaseNotes) -> Option<PlanLine> {
 pub(crate) fn cannot_begin(case: &Case, bad: &BadPhase<f64>, time_s: f64) -> End {
     let reason = match bad.reason {
         NoWay::Numbers(numbers) => numbers.to_string(),
+        NoWay::TooLong { duration, longest } => {
+            format!("it would take {duration:.3e} s, a phase takes at most {longest:.3e} s")
+        }
         NoWay::Unreachable(u) => {
             let because = match u.joint {
                 Some(j) => {

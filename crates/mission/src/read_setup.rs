@@ -208,8 +208,12 @@ pub(crate) fn setup(r: &mut Reading<'_>, file: &MissionFile) -> Setup<f64, JOINT
     let c = &file.control;
     let path = |key| [Step::Key("control"), Step::Key(key)];
     // Without a limit in the vehicle file: as fast as nothing moves.
-    let mut joints =
-        JointUse { gain: 0.0, posture: [0.0; JOINTS], rate_limit: [UNLIMITED; JOINTS] };
+    let mut joints = JointUse {
+        gain: 0.0,
+        gain_rate: 0.0,
+        posture: [0.0; JOINTS],
+        rate_limit: [UNLIMITED; JOINTS],
+    };
     for (to, from) in joints.rate_limit.iter_mut().zip(&r.vehicle.limits) {
         *to = from.rate.unwrap_or(UNLIMITED);
     }

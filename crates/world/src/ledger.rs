@@ -1,5 +1,6 @@
 //! The ledger: momentum and energy, summed over the bodies one by one, against what was booked by
-//! those who act. It never reads the momentum that the integrator carries.
+//! those who act. It reads poses and twists, never the momentum that the integrator carries; what a
+//! twist is worth is for the energy to say, for twists follow from that momentum.
 
 use crate::world::World;
 use wrasse_dynamics::{kinematics, kinetic_energy};

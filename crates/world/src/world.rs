@@ -4,9 +4,7 @@ use crate::flow::Flow;
 use crate::free_body::FreeBody;
 use crate::stepper::{Displacement, Stepper, dormand_prince, equal_steps, runge_kutta_4};
 use std::fmt;
-use wrasse_dynamics::{
-    BodyId, Dynamics, Frame, Payload, PerBody, Robot, State, kinematics, momentum,
-};
+use wrasse_dynamics::{Dynamics, Frame, Payload, PerBody, Robot, State, kinematics, momentum};
 use wrasse_hardware::{AttitudeActuator, JointLimits, SetPointMotion};
 use wrasse_spatial::{Pose, Quat, SpatialForce, Vec3, turned_by};
 
@@ -103,6 +101,8 @@ pub enum Saturation {
 pub struct NonFinite {
     /// What.
     pub quantity: String,
+    /// The joint that it belongs to, if it belongs to one.
+    pub joint: Option<usize>,
     /// When (s).
     pub time: f64,
 }
@@ -390,11 +390,11 @@ impl<const J: usize> World<J> {
 
     fn check_finite(&self, t: f64) -> Result<(), NonFinite> {
         let time = self.period_start + t;
-        let fail = |quantity: String| Err(NonFinite { quantity, time });
+        let fail = |quantity: String, joint| Err(NonFinite { quantity, joint, time });
         let s = &self.system;
         for j in self.robot.joints() {
             if !(s.q[j].is_finite() && s.v[j].is_finite()) {
-                return fail(format!("position or rate of {:?}", BodyId::Link(j)));
+                return fail(format!("position or rate of joint {j}"), Some(j));
             }
         }
         for (name, v) in [
@@ -404,7 +404,7 @@ impl<const J: usize> World<J> {
             ("angular momentum", s.angular),
         ] {
             if !is_finite(v) {
-                return fail(name.into());
+                return fail(name.into(), None);
             }
         }
         Ok(())
@@ -417,7 +417,7 @@ impl<const J: usize> World<J> {
             {
                 if !is_finite(v) {
                     let quantity = format!("{name} of free body {i}");
-                    return Err(NonFinite { quantity, time: self.time });
+                    return Err(NonFinite { quantity, joint: None, time: self.time });
                 }
             }
         }

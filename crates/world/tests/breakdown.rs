@@ -50,7 +50,7 @@ fn a_wrench_that_is_not_a_number_is_reported_with_quantity_body_and_time() {
     for stepper in STEPPERS {
         for bad in [f64::NAN, f64::INFINITY] {
             let broken = broken(&mut disturbed(stepper, bad), &IDLE, Vec3::zero());
-            assert_eq!(broken.quantity, "position or rate of Link(0)");
+            assert_eq!(broken.quantity, "position or rate of joint 0");
             assert!((broken.time - 0.16).abs() < 1e-12, "at {} s", broken.time);
             assert_eq!(
                 broken.to_string(),
@@ -80,7 +80,7 @@ fn an_effort_that_is_not_a_number_is_reported_whatever_the_limits() {
             let mut drives = IDLE;
             drives[2] = Drive::Effort(f64::NAN);
             let broken = broken(&mut World::new(&setup), &drives, Vec3::zero());
-            assert_eq!(broken.quantity, "position or rate of Link(0)");
+            assert_eq!(broken.quantity, "position or rate of joint 0");
         }
     }
 }
@@ -93,7 +93,7 @@ fn an_actuator_torque_that_is_not_a_number_is_reported_whatever_the_limits() {
         for actuator in [None, Some(limits)] {
             let setup = WorldSetup { actuator, ..setup(&robot, stepper, BaseAttitude::Controlled) };
             let broken = broken(&mut World::new(&setup), &IDLE, vec3(0.0, f64::NAN, 0.0));
-            assert_eq!(broken.quantity, "position or rate of Link(0)");
+            assert_eq!(broken.quantity, "position or rate of joint 0");
         }
     }
 }

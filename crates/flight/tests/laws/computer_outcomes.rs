@@ -272,3 +272,16 @@ fn a_computer_in_single_precision_follows_the_one_in_double() {
     }
     worst.is_below(2e-4);
 }
+
+/// Ten days at 100 Hz are the most; a typing error is not to be planned for ever.
+#[test]
+fn a_phase_longer_than_any_mission_is_refused_with_both_durations() {
+    for duration in [1e9, 1e300, f64::INFINITY] {
+        let phases = [hold(Held::Joints, 0.05), hold(Held::Joints, duration)];
+        let (phase, NoWay::TooLong { duration: found, longest }) = first_refusal(&phases) else {
+            panic!("{duration} s began")
+        };
+        assert_eq!((phase, found), (1, duration));
+        assert!((longest / (864_000.0 * 100.0 * PERIOD) - 1.0).abs() < 1e-12, "{longest}");
+    }
+}

@@ -47,7 +47,12 @@ pub(crate) fn setup<T: Scalar>(law: ArmLaw, measurement: Measurement) -> Setup<T
             law,
             damped_below: c(0.02),
         },
-        joints: JointUse { gain: c(0.0), posture: [c(0.0); 7], rate_limit: [c(1e3); 7] },
+        joints: JointUse {
+            gain: c(0.0),
+            gain_rate: c(0.0),
+            posture: [c(0.0); 7],
+            rate_limit: [c(1e3); 7],
+        },
         feedforward: Feedforward::Exact,
         measurement,
         tuning: Tuning {

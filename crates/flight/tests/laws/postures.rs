@@ -90,5 +90,5 @@ impl Case {
 
 /// Joint rates of least norm, without limits.
 pub(crate) fn free_use() -> JointUse<f64, J> {
-    JointUse { gain: 0.0, posture: [0.0; J], rate_limit: [f64::MAX; J] }
+    JointUse { gain: 0.0, gain_rate: 0.0, posture: [0.0; J], rate_limit: [f64::MAX; J] }
 }

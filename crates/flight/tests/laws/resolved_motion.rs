@@ -130,6 +130,30 @@ fn accelerations_are_the_derivatives_of_the_rates() {
     worst.is_below(3e-7);
 }
 
+/// The drift to the posture comes with a gain that grows: its part of the acceleration is a difference
+/// of rates. Round-off, larger by the condition of the Jacobian squared. Measured 8.2e-12.
+#[test]
+fn accelerations_know_of_a_gain_that_changes() {
+    let mut worst = Worst::none();
+    for case in Case::all() {
+        let robot = &case.arm.robot;
+        let with_gain =
+            |gain, gain_rate| JointUse { gain, gain_rate, posture: [0.4; J], ..free_use() };
+        let wanted = WantedMotion { V_NE: case.V_NE, Vdot_NE: SpatialVelocity::zero() };
+        let motion = |joints: &JointUse<f64, J>| {
+            resolved_motion(robot, &robot.cast(), &case.to, &case.belief, &wanted, joints)
+        };
+        // The rates are linear in the gain, so that its part of the acceleration is a difference.
+        let (without, with) = (motion(&with_gain(0.3, 0.0)), motion(&with_gain(0.3, 0.7)));
+        let (none, one) = (case.rates(&with_gain(0.0, 0.0)), case.rates(&with_gain(1.0, 0.0)));
+        for j in 0..robot.joint_count() {
+            let grown = 0.7 * (one.qdot[j] - none.qdot[j]);
+            worst.see(with.qddot[j] - without.qddot[j] - grown);
+        }
+    }
+    worst.is_below(1e-10);
+}
+
 /// All joints are slowed down, so that the share changes as the fastest does. Measured 2.6e-9.
 #[test]
 fn accelerations_are_the_derivatives_of_rates_at_their_limit() {
