@@ -132,10 +132,6 @@ fn a_motion_in_the_reaction_null_space_leaves_the_attitude_alone() {
     let X_start: Pose<f64> = world.state().X_NB;
     lead(&mut world, h, &set_points);
     let way = (tip(&world) - start).norm();
-    println!(
-        "the tool went {way:.3} m, the base turned by {:.1e} deg",
-        turned(&world).to_degrees()
-    );
     assert_eq!(X_start.rotation, Pose::<f64>::identity().rotation);
     assert!(way > 0.2, "{way}");
     assert!(turned(&world).to_degrees() < 1e-9, "{} deg", turned(&world).to_degrees());
