@@ -2,7 +2,7 @@
 //! which complaints about the rest still mean something.
 
 use crate::document::Document;
-use crate::positioned::{Positioned, Table, Value};
+use crate::positioned::{Entry, Positioned, Table, Value};
 use crate::schema_walk::Walk;
 use crate::{Complaint, schema_of};
 use schemars::JsonSchema;
@@ -27,12 +27,15 @@ impl Document {
     pub fn read_in_part<T: DeserializeOwned + JsonSchema>(&self) -> Part<T> {
         let schema = schema_of::<T>();
         let walk = Walk::over(self.source(), &schema, self.root());
-        let (complaints, meant) = (walk.complaints, walk.meant);
+        let Walk { complaints, meant, stand_ins, missing, .. } = walk;
         let spans: Vec<_> = complaints.iter().filter_map(|c| c.span.clone()).collect();
         let mut document = self.clone();
         rename(document.root_mut(), &meant);
-        let whole = prune_table(document.root_mut(), &spans);
-        let sound = whole && spans.len() == complaints.len();
+        stand_in(document.root_mut(), &stand_ins);
+        fill(document.root_mut(), None, &missing);
+        let filled: Vec<_> = missing.into_iter().filter_map(|(place, ..)| place).collect();
+        let faulty: Vec<_> = spans.into_iter().filter(|span| !filled.contains(span)).collect();
+        let sound = prune_table(document.root_mut(), &faulty);
         let read = if sound { document.read::<T>() } else { Err(vec![]) };
         match read {
             Ok(value) => Part { value: Some(value), document, complaints },
@@ -51,6 +54,8 @@ impl Document {
         let spans: Vec<_> = shape.iter().filter_map(|c| c.span.clone()).collect();
         let follows = |complaint: &Complaint| match &complaint.span {
             None => true,
+            // A stand-in stands nowhere.
+            Some(span) if span.is_empty() => true,
             Some(span) => faulty_within(self.root(), span, &spans),
         };
         let mut all = shape;
@@ -83,6 +88,51 @@ fn rename(table: &mut Table, meant: &[(Range<usize>, String)]) {
                 }
             }),
             _ => {}
+        }
+    }
+}
+
+/// Put right values where wrong ones stand, at a place that is nowhere, so that they are not taken
+/// away. What is said of them later is dropped: it belongs to the wrong value.
+fn stand_in(table: &mut Table, right: &[(Range<usize>, Value)]) {
+    for entry in table.values_mut() {
+        replace(&mut entry.item, right);
+    }
+}
+
+fn replace(item: &mut Positioned, right: &[(Range<usize>, Value)]) {
+    if let Some((_, value)) = right.iter().find(|(place, _)| *place == item.span) {
+        // The end of the value: still a place to point at, and not the faulty one.
+        *item = Positioned { span: item.span.end..item.span.end, value: value.clone() };
+    }
+    match &mut item.value {
+        Value::Table(inner) => stand_in(inner, right),
+        Value::Array(items) => items.iter_mut().for_each(|item| replace(item, right)),
+        _ => {}
+    }
+}
+
+/// Put values where keys are missing, in the table that stands at `here`.
+fn fill(
+    table: &mut Table,
+    here: Option<&Range<usize>>,
+    missing: &[(Option<Range<usize>>, String, Value)],
+) {
+    for (_, key, value) in missing.iter().filter(|(place, ..)| place.as_ref() == here) {
+        let nowhere = here.map_or(0..0, |span| span.end..span.end);
+        let item = Positioned { span: nowhere.clone(), value: value.clone() };
+        table.entry(key.clone()).or_insert(Entry { key_span: nowhere, item });
+    }
+    for entry in table.values_mut() {
+        let items = match &mut entry.item.value {
+            Value::Array(items) => items.as_mut_slice(),
+            _ => std::slice::from_mut(&mut entry.item),
+        };
+        for item in items {
+            let span = item.span.clone();
+            if let Value::Table(inner) = &mut item.value {
+                fill(inner, Some(&span), missing);
+            }
         }
     }
 }

@@ -15,12 +15,23 @@ pub(crate) struct Walk<'a> {
     pub(crate) complaints: Vec<Complaint>,
     /// Unknown keys, by their place, and the keys that were meant.
     pub(crate) meant: Vec<(Range<usize>, String)>,
+    /// Wrong values, by their place, and right ones that can stand there while the rest is checked.
+    pub(crate) stand_ins: Vec<(Range<usize>, Value)>,
+    /// Missing keys, by the place of their table (none for the whole file), and values for them.
+    pub(crate) missing: Vec<(Option<Range<usize>>, String, Value)>,
 }
 
 impl<'a> Walk<'a> {
     /// The walk over a whole document: all complaints, in the order of the file.
     pub(crate) fn over(source: &'a Arc<Source>, schema: &'a Schema, root: &Table) -> Self {
-        let mut walk = Self { source, whole: schema, complaints: Vec::new(), meant: Vec::new() };
+        let mut walk = Self {
+            source,
+            whole: schema,
+            complaints: Vec::new(),
+            meant: Vec::new(),
+            stand_ins: Vec::new(),
+            missing: Vec::new(),
+        };
         walk.table(schema, "the file", None, root);
         walk.complaints.sort_by_key(|c| c.span.as_ref().map_or(usize::MAX, |s| s.start));
         walk
@@ -61,6 +72,8 @@ impl<'a> Walk<'a> {
             (_, []) => {
                 let wanted = list_of(options.iter().map(|o| wanted(o)), "or");
                 let message = format!("{name} must be {wanted}, found {}", item.value.kind());
+                let stand_in = options.iter().find_map(|option| stand_in(option));
+                self.stand_ins.extend(stand_in.map(|value| (item.span.clone(), value)));
                 let help = description(schema).or_else(|| description(self.resolved(schema)));
                 self.complain(item.span.clone(), message, "wrong type").help = help;
             }
@@ -95,6 +108,7 @@ impl<'a> Walk<'a> {
         if !found.is_finite() {
             let message = format!("{name} is not a finite number, found {found}");
             self.complain(span.clone(), message, "not finite");
+            self.stand_ins.push((span.clone(), Value::Float(1.0)));
         }
         for (bound, words, broken) in [
             ("minimum", "at least", (|x, b| x < b) as fn(f64, f64) -> bool),
@@ -114,7 +128,10 @@ impl<'a> Walk<'a> {
         }
         let all = list_of(words.iter().map(|w| format!("\"{w}\"")), "or");
         let message = format!("{name} must be {all}, found \"{found}\"");
-        let help = closest(found, words.iter().copied()).map(|w| format!("did you mean \"{w}\"?"));
+        let close = closest(found, words.iter().copied());
+        let stand_in = close.or(words.first().copied()).map(|w| Value::String(w.to_owned()));
+        self.stand_ins.extend(stand_in.map(|value| (span.clone(), value)));
+        let help = close.map(|w| format!("did you mean \"{w}\"?"));
         self.complain(span.clone(), message, "not one of these").help = help;
     }
     fn list(&mut self, schema: &'a Schema, name: &str, items: &[Positioned], span: &Range<usize>) {
@@ -158,6 +175,7 @@ impl<'a> Walk<'a> {
         let required = schema["required"].as_array().into_iter().flatten();
         for key in required.filter_map(Schema::as_str) {
             if !table.contains_key(key) && !meant.contains(&key) {
+                self.stand_in_for(schema, key, span);
                 let mut complaint = Complaint::error(self.source, format!("{name} has no `{key}`"));
                 if let Some(span) = span {
                     complaint = complaint.at(span.clone(), format!("`{key}` is missing"));
@@ -166,6 +184,16 @@ impl<'a> Walk<'a> {
                     description(&schema["properties"][key]).map(|text| format!("`{key}`: {text}"));
                 self.complaints.push(complaint);
             }
+        }
+    }
+    /// Find a value for a missing key. Names are only made up for the file as a whole: elsewhere
+    /// something else may refer to them.
+    fn stand_in_for(&mut self, schema: &'a Schema, key: &str, span: Option<&Range<usize>>) {
+        let options = self.choice(&schema["properties"][key]);
+        let any = options.iter().find_map(|option| stand_in(option));
+        let name = span.is_none().then(|| Value::String("?".into()));
+        if let Some(value) = any.or(name) {
+            self.missing.push((span.cloned(), key.to_owned(), value));
         }
     }
     /// Says so, and answers with the key that was meant, if there is one like it.
@@ -255,13 +283,32 @@ impl<'a> Walk<'a> {
     /// Complaints of the shape that has the fewest.
     fn best_of(&mut self, shapes: &[&'a Schema], name: &str, item: &Positioned) {
         let attempts = shapes.iter().map(|shape| {
-            let mut walk =
-                Self { source: self.source, whole: self.whole, complaints: vec![], meant: vec![] };
+            let mut walk = Self {
+                source: self.source,
+                whole: self.whole,
+                complaints: vec![],
+                meant: vec![],
+                stand_ins: vec![],
+                missing: vec![],
+            };
             walk.shape(shape, name, item);
             walk.complaints
         });
         let best = attempts.min_by_key(Vec::len).unwrap_or_default();
         self.complaints.extend(best);
+    }
+}
+
+/// A value that a schema allows, where one is as good as another: a number, a flag, a word of a list.
+fn stand_in(schema: &Schema) -> Option<Value> {
+    if let Some(word) = words(schema).and_then(|words| words.first().copied()) {
+        return Some(Value::String(word.to_owned()));
+    }
+    match schema["type"].as_str()? {
+        "number" => Some(Value::Float(1.0)),
+        "integer" => Some(Value::Integer(1)),
+        "boolean" => Some(Value::Boolean(false)),
+        _ => None,
     }
 }
 

@@ -11,7 +11,7 @@ use crate::resolved_motion::{
     answered_twist, resolved_motion, task_jacobian,
 };
 use crate::sequence::{BadPhase, NoWay, Sequence};
-use crate::tool_pose::joints_for_tool;
+use crate::tool_pose::{Unreachable, joints_for_tool};
 use crate::trajectory::ToolMotion;
 use wrasse_dynamics::{Frame, Robot, State, kinematics, mass_matrix, momentum};
 use wrasse_hardware::{JointLimits, SetPoint, SetPointMotion};
@@ -223,7 +223,8 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     }
 
     /// The same again once the motion at the end is known too: `Δ = h (v₀ + v₁)/2 + h² (a₀ - a₁)/12`,
-    /// of fourth order, and what joins the set-points without a wiggle.
+    /// of fourth order in the joints, where it is what joins the set-points without a wiggle; of second
+    /// order in a base that turns about a changing axis.
     fn correct(&mut self, from: &Belief<T, J>, began: &ResolvedMotion<T, J>, period: T) {
         let (half, twelfth) = (T::from_f64(0.5), T::from_f64(1.0 / 12.0) * period);
         let ended = self.motion;
@@ -423,6 +424,17 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     pub fn task_jacobian(&self) -> [SpatialVelocity<T>; J] {
         let to = Assignment { axes: self.axes, ..self.setup.assignment };
         task_jacobian(&self.robot, &to, &self.belief)
+    }
+
+    /// What is left of the line's end at the nearest joint positions that the law can find, if the
+    /// end of the current line is out of reach. A floating base is taken as held here: where it ends
+    /// depends on the way.
+    pub fn end_out_of_reach(&self) -> Option<Unreachable<T>> {
+        let Path::Line(line, axes) = self.path else { return None };
+        let X = line.at(line.duration()).X_NE;
+        let (tool, law) = (&self.setup.assignment.tool, self.setup.assignment.law);
+        let state = State { X_NB: self.belief.X_NB, q: self.belief.q, ..State::default() };
+        joints_for_tool(&self.robot, tool, &state, &X, axes, law, &self.setup.limits).err()
     }
 
     /// Whether the current phase moves the tool along a line.

@@ -1,7 +1,7 @@
 //! How near an arm is to where it cannot go on: reach left, singular values left.
 
 use nalgebra::{SMatrix, SymmetricEigen};
-use wrasse_dynamics::{BodyId, Frame, Kinematics};
+use wrasse_dynamics::{BodyId, Frame, JointKind, Kinematics};
 use wrasse_flight::Task;
 use wrasse_spatial::SpatialVelocity;
 
@@ -29,13 +29,16 @@ pub(crate) fn smallest_singular_value<const J: usize>(
 }
 
 /// How much farther the tool could be from its mount if the arm were stretched out straight (m): a
-/// bound, reached only where nothing else stops the arm. Infinite where a joint slides.
+/// bound, reached only where nothing else stops the arm. `None` where a joint on the way slides.
 pub(crate) fn reach_margin<const J: usize>(
     k: &Kinematics<'_, f64, J>,
     tool: &Frame<f64>,
 ) -> Option<f64> {
     let mut points = vec![k.pose(tool).translation];
     for j in k.robot.path_to_base(tool.body) {
+        if k.robot.joint(j).kind == JointKind::Prismatic {
+            return None;
+        }
         points.push(k.X_NB[BodyId::Link(j)].translation);
     }
     let stretched: f64 = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();

@@ -11,7 +11,7 @@ use crate::telemetry::Recorder;
 use wrasse_dynamics::{Payload, kinematics};
 use wrasse_flight::{Command, FlightComputer, Grip, Sensed};
 use wrasse_hardware::{SetPoint, SetPointMotion};
-use wrasse_spatial::Pose;
+use wrasse_spatial::{Pose, Vec3};
 use wrasse_vehicle::JOINTS;
 use wrasse_world::{BaseAttitude, Drive, Saturation, Stepper, World, WorldSetup};
 
@@ -122,6 +122,20 @@ impl<'a> Flight<'a> {
             start: case.start,
             held: &held,
         });
+        // Prescribed joints keep their rates from the first instant on.
+        let (start, period) = (case.start, case.period());
+        let drives: [Drive; JOINTS] = core::array::from_fn(|j| {
+            let at = |t: f64| SetPoint {
+                position: start.q[j] + start.v[j] * t,
+                rate: start.v[j],
+                acceleration: 0.0,
+            };
+            if case.torque[j] {
+                return Drive::Effort(0.0);
+            }
+            Drive::Follow(SetPointMotion::between(at(0.0), at(period), period))
+        });
+        world.command(&drives, Vec3::zero(), period);
         let floating = case.payloads.iter().enumerate().map(|(i, p)| match p.start {
             PayloadStart::Held(_) => None,
             PayloadStart::Free(..) => Some(world.add_free_body(case.free_body(i))),
@@ -181,7 +195,11 @@ impl<'a> Flight<'a> {
     fn command(&mut self) -> Result<Command<f64, JOINTS>, End> {
         let sensed = Sensed { state: self.world.state() };
         let time = self.world.time();
-        self.computer.step(&sensed).map_err(|bad| cannot_begin(self.case, &bad, time))
+        // What the planning let pass, the truth may still refuse: by then things have moved.
+        self.computer.step(&sensed).map_err(|bad| match cannot_begin(self.case, &bad, time) {
+            End::Infeasible { phase, time_s, reason } => End::Stopped { phase, time_s, reason },
+            end => end,
+        })
     }
 
     /// One control period of the world; why the flight ends, if it does.
@@ -283,11 +301,11 @@ impl<'a> Flight<'a> {
                 angular.to_degrees()
             )
         };
-        self.world.grasp(&tool, number, angular, linear).map_err(refused)?;
+        let change = self.world.grasp(&tool, number, angular, linear).map_err(refused)?;
         self.floating[i] = None;
         self.floating.iter_mut().flatten().filter(|n| **n > number).for_each(|n| *n -= 1);
         self.holding.push(i);
-        Ok(format!("grasped {name}"))
+        Ok(format!("grasped {name}: energy changes by {change:.3e} J"))
     }
 
     fn release(&mut self, i: usize) -> Result<String, String> {

@@ -180,8 +180,8 @@ pub(crate) struct WorldFile {
     pub(crate) joints: JointsFile,
     /// Joints that are driven by torque while the others are prescribed.
     pub(crate) torque_joints: Vec<String>,
-    /// Step of the fixed-step integrator; at most the control period is used.
-    pub(crate) step_s: f64,
+    /// Step of the fixed-step integrator, 0.005 unless given; at most the control period is used.
+    pub(crate) step_s: Option<f64>,
     /// Error allowed in each step of the adaptive integrator; it replaces the fixed step.
     pub(crate) adaptive_tolerance: Option<f64>,
 }
@@ -192,7 +192,7 @@ impl Default for WorldFile {
             base_attitude: BaseFile::Free,
             joints: JointsFile::Prescribed,
             torque_joints: vec![],
-            step_s: 0.005,
+            step_s: None,
             adaptive_tolerance: None,
         }
     }
@@ -224,7 +224,7 @@ pub(crate) enum FeedforwardFile {
     None,
 }
 
-/// What the guidance measures.
+/// What the guidance measures. The joint loops and the attitude law always use their own sensors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum MeasurementFile {

@@ -4,8 +4,8 @@ use crate::arm_shape::{reach_margin, smallest_singular_value};
 use crate::mission::Case;
 use crate::quantity::FIXED_COUNT;
 use wrasse_dynamics::{
-    BodyId, Dynamics, Kinematics, PerBody, State, inverse_dynamics, kinematics, kinetic_energy,
-    mount_reaction,
+    BodyId, Dynamics, JointKind, Kinematics, PerBody, State, inverse_dynamics, kinematics,
+    kinetic_energy, mount_reaction,
 };
 use wrasse_flight::{Axes, Command, FlightComputer};
 use wrasse_spatial::{Pose, Quat, SpatialForce, SpatialVelocity, Vec3};
@@ -154,9 +154,15 @@ fn values(
         });
         shares.fold(f64::NAN, f64::max)
     };
-    let margins = case.vehicle.limits.iter().enumerate().filter_map(|(j, limits)| {
-        limits.travel.map(|(lower, upper)| (seen.state.q[j] - lower).min(upper - seen.state.q[j]))
-    });
+    let margin = |kind: JointKind| {
+        let joints = case.vehicle.limits.iter().enumerate();
+        let of_kind = joints.filter(|(j, _)| case.vehicle.robot.joint(*j).kind == kind);
+        let margins = of_kind.filter_map(|(j, limits)| {
+            let q = seen.state.q[j];
+            limits.travel.map(|(lower, upper)| (q - lower).min(upper - q))
+        });
+        margins.fold(f64::NAN, f64::min)
+    };
     vec![
         seen.tool_error.0.norm(),
         along,
@@ -169,7 +175,8 @@ fn values(
         seen.state.V_NB_B.angular.norm(),
         use_of(&|j| (seen.state.v[j], case.vehicle.limits[j].rate)),
         use_of(&|j| (seen.dynamics.force.joints[j], case.vehicle.limits[j].effort)),
-        margins.fold(f64::NAN, f64::min),
+        margin(JointKind::Revolute),
+        margin(JointKind::Prismatic),
         shape.0,
         shape.1,
         mounts.0,

@@ -201,23 +201,42 @@ impl<'a> Belief<'a> {
         (off > OFF_THE_WAY.0 || turned > OFF_THE_WAY.1).then(|| {
             format!(
                 "{:.3} m along the way the tool falls behind its reference by {:.3} mm and {:.4} deg; \
-                 {}{limited}",
+                 {}{limited}{}",
                 notes.way,
                 off * 1e3,
                 turned.to_degrees(),
-                condition(singular, reach, notes.base_turn)
+                condition(singular, reach, notes.base_turn),
+                self.about_the_end()
             )
         })
     }
 }
 
+impl Belief<'_> {
+    /// Whether the end of the way is out of reach at any speed, in words.
+    fn about_the_end(&self) -> String {
+        let task = self.case.setup.assignment.task;
+        match self.computer.end_out_of_reach().filter(|_| task == Task::Pose) {
+            Some(left) if left.position_error.is_finite() => format!(
+                "; from here, if the base turns no more, its end is out of reach at any speed: the nearest \
+                 is {:.1} mm and {:.2} deg off",
+                left.position_error * 1e3,
+                left.rotation_error.to_degrees()
+            ),
+            _ => String::new(),
+        }
+    }
+}
+
 /// What the arm is like, in words and numbers.
 fn condition(singular: f64, reach: f64, base_turn: f64) -> String {
+    let mut left = String::new();
+    if reach.is_finite() {
+        left = format!("{:.1} mm of reach left, ", reach * 1e3);
+    }
+    let turn = base_turn.to_degrees();
     format!(
-        "smallest singular value {singular:.4}, {:.1} mm of reach left, base believed to have turned \
-         {:.2} deg",
-        reach * 1e3,
-        base_turn.to_degrees()
+        "smallest singular value {singular:.4}, {left}base believed to have turned {turn:.2} deg"
     )
 }
 

@@ -118,6 +118,7 @@ const FIXED: &[(&str, Kind, &[Statistic])] = {
         ("joints.rate_use", Kind::Number, &[Max]),
         ("joints.effort_use", Kind::Number, &[Max]),
         ("joints.travel_margin", Kind::Angle, &[Min]),
+        ("joints.slide_margin", Kind::Length, &[Min]),
         ("arm.reach_margin", Kind::Length, &[Min, Final]),
         ("arm.singularity_distance", Kind::Number, &[Min, Final]),
         ("mount.force", Kind::Force, &[Max]),

@@ -176,8 +176,16 @@ pub(crate) fn base_attitude(
 const STEPS: (f64, f64) = (1e-6, 1e3);
 const TOLERANCES: (f64, f64) = (1e-14, 1.0);
 
+/// Step of the integrator where the mission gives none (s).
+const STEP: f64 = 0.005;
+
 pub(crate) fn stepper(r: &mut Reading<'_>, file: &MissionFile) -> Stepper {
-    let step = r.within(at!["world", "step_s"], file.world.step_s, STEPS, "a usual step is 0.005");
+    let given = file.world.step_s.unwrap_or(STEP);
+    let step = r.within(at!["world", "step_s"], given, STEPS, "a usual step is 0.005");
+    if file.world.step_s.is_some() && file.world.adaptive_tolerance.is_some() {
+        let message = "a step and a tolerance: the integrator has one or the other".into();
+        r.error(at!["world", "step_s"], message, "leave out step_s, or adaptive_tolerance");
+    }
     match file.world.adaptive_tolerance {
         None => Stepper::Fixed { step },
         Some(tolerance) => {

@@ -112,10 +112,10 @@ impl Recorder {
             "to the stretched arm",
             "arm.reach_margin",
             "mm",
-            seen.values[12] * 1e3,
+            seen.values[13] * 1e3,
         );
         let plot = "Distance from a singular posture";
-        self.put(plot, "smallest singular value", "arm.singularity_distance", "–", seen.values[13]);
+        self.put(plot, "smallest singular value", "arm.singularity_distance", "–", seen.values[14]);
     }
 
     fn books(&mut self, ledger: &Ledger) {

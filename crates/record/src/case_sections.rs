@@ -1,6 +1,6 @@
 //! The report's sections on one case: verdicts, motion, plots, plan, events, ledger, metrics.
 
-use wrasse_mission::{CaseOutcome, Ledger, Metric, Verdict};
+use wrasse_mission::{CaseOutcome, End, Ledger, Metric, Verdict};
 
 use crate::comparison::{judged, reason};
 use crate::drawing::drawing;
@@ -41,7 +41,7 @@ pub(crate) fn case_sections(case: &CaseOutcome, place: &Place) -> String {
         place.section("plots", "Plots", &plots(case)),
         place.section("plan", "Plan", &plan(case)),
         place.section("events", "Events", &events(case)),
-        place.section("ledger", "Ledger", &ledger(&case.ledger)),
+        place.section("ledger", "Ledger", &ledger(case)),
         place.section("error", "Integration error", &error_estimate(case)),
         place.section("metrics", "Metrics", &metrics_folded(case)),
     ]
@@ -148,7 +148,11 @@ fn events(case: &CaseOutcome) -> String {
     table("text", &["No.", "Time (s)", "What happened"], &rows) + &rest
 }
 
-fn ledger(ledger: &Ledger) -> String {
+fn ledger(case: &CaseOutcome) -> String {
+    if matches!(case.end, End::Infeasible { .. }) {
+        return "<p>Nothing moved: there is no ledger.</p>\n".to_owned();
+    }
+    let ledger = &case.ledger;
     let head = [
         "",
         "Start",

@@ -1,6 +1,6 @@
 //! The verdicts as plain text, for the terminal.
 
-use wrasse_mission::{CaseOutcome, EventKind, Ledger, Outcome, Verdict};
+use wrasse_mission::{CaseOutcome, End, EventKind, Ledger, Outcome, Verdict};
 
 use crate::comparison::{Comparison, case_name, comparison, judged, reason};
 use crate::ledger_rests::{Rest, ledger_rests};
@@ -30,8 +30,17 @@ fn single(case: &CaseOutcome) -> String {
     }
     text += &limits_reached(case);
     text += "\n";
-    text += &ledger_lines(&case.ledger, "");
+    if was_flown(case) {
+        text += &ledger_lines(&case.ledger, "");
+    } else {
+        text += "nothing moved: there is no ledger\n";
+    }
     text + &integration_error(case)
+}
+
+/// Whether anything moved: a way that the planning refuses leaves no ledger.
+fn was_flown(case: &CaseOutcome) -> bool {
+    !matches!(case.end, End::Infeasible { .. })
 }
 
 /// Most limits that are told one by one.

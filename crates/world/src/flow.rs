@@ -71,7 +71,15 @@ impl<const J: usize> Displacement for Flow<J> {
     fn error_norm(&self, tolerance: f64) -> f64 {
         // The state, and what is booked: where joints are prescribed only the books see a step that
         // is too long.
-        let vectors = [self.turn, self.p_NScm_N, self.from_actuator, self.work];
+        let vectors = [
+            self.turn,
+            self.p_NScm_N,
+            self.linear,
+            self.angular,
+            self.from_actuator,
+            self.from_outside,
+            self.work,
+        ];
         let vectors = vectors.into_iter().flat_map(Vec3::to_array);
         let all = vectors.chain(self.q).chain(self.v);
         all.fold(0.0, |m: f64, x| m.max(x.abs())) / tolerance

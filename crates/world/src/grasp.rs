@@ -1,9 +1,11 @@
 //! Grasp and release of rigid payloads: total momentum continues exactly.
 
 use crate::free_body::FreeBody;
-use crate::world::{BaseAttitude, World};
-use wrasse_dynamics::{Frame, Robot, kinematics, kinetic_energy, momentum};
-use wrasse_spatial::{SpatialVelocity, Vec3};
+use crate::world::{Drive, World};
+use wrasse_dynamics::{
+    BodyId, Frame, JointDrive, PerBody, Robot, State, driven_dynamics, inverse_dynamics, kinematics,
+};
+use wrasse_spatial::{SpatialForce, SpatialVelocity, Vec3};
 
 /// A grasp that was refused: the grip and the payload move too differently.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,10 +27,10 @@ impl<const J: usize> World<J> {
         at_T.shifted_by(k.pose(frame).translation - X_NT.translation) - k.velocity(frame)
     }
 
-    /// Make free body `i` part of the body that carries `frame`, where it is now; those behind it
-    /// move up by one number. The joints keep their rates, whatever drives them; total momentum
-    /// continues exactly. The energy changes by what the grip dissipates and by what the drives do to
-    /// keep the rates; the change is booked.
+    /// Make free body `i` part of the body that carries `frame`, where it is now: a plastic impact.
+    /// Total momentum continues exactly. Joints that are driven by torque give way; prescribed joints
+    /// keep their rates and a held base its attitude, whatever impulse that takes. The change of
+    /// energy (J) is returned.
     ///
     /// # Errors
     /// If the relative twist is not within the bounds (rad/s, m/s).
@@ -41,19 +43,21 @@ impl<const J: usize> World<J> {
         i: usize,
         largest_angular: f64,
         largest_linear: f64,
-    ) -> Result<(), GraspRefused> {
+    ) -> Result<f64, GraspRefused> {
         let V = self.relative_twist(frame, i);
         let (angular_speed, linear_speed) = (V.angular.norm(), V.linear.norm());
         let within = angular_speed <= largest_angular && linear_speed <= largest_linear;
         if !within {
             return Err(GraspRefused { angular_speed, linear_speed });
         }
-        let before = self.account();
         let body = self.free.remove(i);
+        let state = self.state();
         let X_FT = self.pose(frame).inverse() * body.pose();
+        let alone = self.robot;
         self.held.push((*frame, body.matter.seen_from(&X_FT)));
         let m = self.mass;
         let total = m + body.matter.M_F_F.mass;
+        self.rebuild(total);
         let s = &mut self.system;
         let p_cm = (s.p_NScm_N * m + body.p_NTcm_N * body.matter.M_F_F.mass) * (1.0 / total);
         s.angular += (s.p_NScm_N - p_cm).cross(s.linear)
@@ -61,9 +65,57 @@ impl<const J: usize> World<J> {
             + (body.p_NTcm_N - p_cm).cross(body.linear);
         s.linear += body.linear;
         s.p_NScm_N = p_cm;
-        self.rebuild(total);
-        self.book_change(&before);
-        Ok(())
+        let change = self.impact(&alone, &state, frame.body, &body);
+        self.energy_at_grasps += change;
+        Ok(change)
+    }
+
+    /// Joint rates after the impact, and the impulse that holds the base; the change of energy (J).
+    ///
+    /// At the instant only momentum counts: `M⁺ ν⁺ = M ν + Jᵀ h` is forward dynamics at rest, with the
+    /// generalized momentum in place of the forces and the rates in place of the accelerations.
+    fn impact(
+        &mut self,
+        alone: &Robot<f64, J>,
+        before: &State<f64, J>,
+        grip: BodyId,
+        body: &FreeBody,
+    ) -> f64 {
+        let at_rest = State { V_NB_B: SpatialVelocity::zero(), v: [0.0; J], ..*before };
+        let none = PerBody::filled(SpatialForce::zero());
+        let own = inverse_dynamics(&kinematics(alone, &at_rest), &before.velocity(), &none).force;
+        let k = kinematics(&self.robot, &at_rest);
+        let X_NB = &k.X_NB[grip];
+        let h_N = SpatialForce::new(body.angular, body.linear);
+        let about_Bo = h_N.about(X_NB.translation - body.p_NTcm_N);
+        let brought = SpatialForce::new(
+            X_NB.rotation.transpose_mul(about_Bo.torque),
+            X_NB.rotation.transpose_mul(about_Bo.force),
+        );
+        let mut momenta = none;
+        momenta[grip] += brought;
+        momenta.base += own.base;
+        let drives = core::array::from_fn(|j| match self.drives[j] {
+            Drive::Follow(_) => JointDrive::Acceleration(before.v[j]),
+            Drive::Effort(_) => JointDrive::Effort(own.joints[j]),
+        });
+        let found = driven_dynamics(&k, &drives, self.base_mode(), &momenta);
+        for j in self.robot.joints() {
+            self.system.v[j] = found.nudot.joints[j];
+        }
+        let holding_N = before.X_NB.rotation * found.force.base.torque;
+        self.system.angular += holding_N;
+        self.booked.from_actuator += holding_N;
+
+        let after = State { V_NB_B: found.nudot.base, v: found.nudot.joints, ..*before };
+        let k_after = kinematics(&self.robot, &after);
+        let mut twice = after.V_NB_B.power(&(own.base + found.force.base))
+            + k_after.V_NB_B[grip].power(&brought)
+            - before.V_NB_B.power(&own.base);
+        for j in self.robot.joints() {
+            twice += after.v[j] * found.force.joints[j] - before.v[j] * own.joints[j];
+        }
+        0.5 * twice - body.kinetic_energy()
     }
 
     /// Let go of a payload, by its number in [`held`](Self::held). It goes on as it moves; its number
@@ -72,7 +124,6 @@ impl<const J: usize> World<J> {
     /// # Panics
     /// If nothing of this number is held.
     pub fn release(&mut self, number: usize) -> usize {
-        let before = self.account();
         let (frame, payload) = self.held.remove(number);
         let state = self.state();
         let k = kinematics(&self.robot, &state);
@@ -90,7 +141,6 @@ impl<const J: usize> World<J> {
         s.p_NScm_N = p_cm;
         self.free.push(body);
         self.rebuild(m);
-        self.book_change(&before);
         self.free.len() - 1
     }
 
@@ -100,27 +150,6 @@ impl<const J: usize> World<J> {
             |robot: Robot<f64, J>, (frame, p): &(Frame<f64>, _)| robot.with_payload(frame, p);
         self.robot = self.held.iter().fold(self.empty, holding);
         self.mass = mass;
-    }
-
-    /// Book what a grasp or release changed: energy, and where the attitude is held the angular
-    /// impulse that held it.
-    fn book_change(&mut self, before: &crate::Account) {
-        if self.base == BaseAttitude::Held {
-            let state = self.state();
-            let h = momentum(&kinematics(&self.robot, &state));
-            self.system.angular = h.angular;
-        }
-        let after = self.account();
-        self.energy_at_grasps += after.energy - before.energy;
-        let impulse = after.angular - before.angular;
-        if self.base == BaseAttitude::Held {
-            self.booked.from_actuator += impulse;
-        }
-    }
-
-    /// Kinetic energy of the vehicle alone (J).
-    pub fn vehicle_energy(&self) -> f64 {
-        kinetic_energy(&kinematics(&self.robot, &self.state()))
     }
 
     /// Centre of mass of the vehicle and what it holds (m, inertial axes).

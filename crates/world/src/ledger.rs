@@ -69,7 +69,11 @@ impl<const J: usize> World<J> {
         }
         let mut energy = kinetic_energy(&k);
         for body in &self.free {
-            parts.push((body.matter.M_F_F.mass, body.p_NTcm_N, body.linear, body.angular));
+            // From its twist, like every other body.
+            let (M, R_NT) = (body.matter.M_F_F, body.pose().rotation);
+            let h_T = M * body.twist();
+            let about_cm = h_T.about(M.centre_of_mass()).torque;
+            parts.push((M.mass, body.p_NTcm_N, R_NT * h_T.force, R_NT * about_cm));
             energy += body.kinetic_energy();
         }
         let mass: f64 = parts.iter().map(|p| p.0).sum();

@@ -65,11 +65,15 @@ impl<const J: usize> World<J> {
         });
         let mut on_bodies = *outside;
         on_bodies.base.torque += self.actuator_torque_B;
-        let mode = match self.base {
+        driven_dynamics(k, &drives, self.base_mode(), &on_bodies)
+    }
+
+    /// What holds the base.
+    pub(crate) fn base_mode(&self) -> BaseMode {
+        match self.base {
             BaseAttitude::Held => BaseMode::AttitudeHeld,
             BaseAttitude::Free | BaseAttitude::Controlled => BaseMode::Free,
-        };
-        driven_dynamics(k, &drives, mode, &on_bodies)
+        }
     }
 
     /// Rates of the flow at displacement `d`, `t` (s) into the step that began `t0` (s) into the

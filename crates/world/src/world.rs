@@ -290,10 +290,12 @@ impl<const J: usize> World<J> {
                 cut.push(Saturation::ActuatorTorque(axis));
             }
             // It may reach ± its limit, not pass it: a full actuator gives back what is carried to it,
-            // even if nothing is asked. (To first order in the turn over the period.)
+            // even if nothing is asked, as far as its torque goes. (To first order in the turn over
+            // the period.)
             let lowest = (stored[axis] - limits.momentum_limit) / period - carried[axis];
             let highest = (stored[axis] + limits.momentum_limit) / period - carried[axis];
-            given[axis] = if lowest <= highest { torque.clamp(lowest, highest) } else { torque };
+            let held = if lowest <= highest { torque.clamp(lowest, highest) } else { torque };
+            given[axis] = held.clamp(-limits.torque_limit, limits.torque_limit);
             if given[axis] != torque {
                 cut.push(Saturation::ActuatorMomentum(axis));
             }
