@@ -27,5 +27,5 @@ pub use resolved_motion::{
     Assignment, Belief, JointUse, Resolved, ResolvedMotion, WantedMotion, answered_motion,
     joint_rates, resolved_motion, task_jacobian,
 };
-pub use sequence::{BadPhase, NoWay};
+pub use sequence::{BadPhase, LONGEST, NoWay};
 pub use tool_pose::{Unreachable, joints_for_tool};

@@ -35,8 +35,9 @@ impl<T> From<BadNumbers> for NoWay<T> {
     }
 }
 
-/// Longest phase (control periods): ten days at 100 Hz.
-const LONGEST: u32 = 86_400_000;
+/// Longest phase, and longest mission (control periods): ten days at 100 Hz, a guard against typing
+/// errors.
+pub const LONGEST: u32 = 86_400_000;
 
 /// Where in its phases the computer is.
 #[derive(Debug, Clone, Copy)]

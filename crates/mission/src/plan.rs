@@ -5,15 +5,13 @@ use crate::arm_shape::{reach_margin, smallest_singular_value};
 use crate::mission::{Case, PayloadStart};
 use crate::outcome::{End, PlanLine};
 use wrasse_dynamics::{Frame, Payload, Robot, kinematics};
-use wrasse_flight::{BadPhase, FlightComputer, Grip, NoWay, Sensed, Task};
+use wrasse_flight::{BadPhase, FlightComputer, Grip, LONGEST, NoWay, Sensed, Task};
 use wrasse_spatial::{Quat, Vec3};
 use wrasse_vehicle::JOINTS;
 use wrasse_world::FreeBody;
 
 /// A tool that its own law believes this far from its reference has left the way (m, rad).
 const OFF_THE_WAY: (f64, f64) = (5e-5, 5e-5);
-/// No mission lasts longer (control periods): a guard against a typing error, ten days at 100 Hz.
-const LONGEST: u64 = 86_400_000;
 
 /// What the planning found.
 #[derive(Debug, Clone)]
@@ -67,7 +65,7 @@ pub(crate) fn plan(case: &Case) -> Plan {
     let mut state = case.start;
     let mut notes = PhaseNotes::NONE;
     let mut phase = 0;
-    while !belief.computer.done() && plan.periods < LONGEST {
+    while !belief.computer.done() && plan.periods < u64::from(LONGEST) {
         let time = case.period() * plan.periods as f64;
         let command = match belief.computer.step(&Sensed { state }) {
             Ok(command) => command,

@@ -13,7 +13,7 @@ use crate::reading::Reading;
 use wrasse_document::{Step, at};
 use wrasse_dynamics::JointKind;
 use wrasse_flight::trajectory::{MotionLimits, ProfileShape};
-use wrasse_flight::{Grip, Held, JointTarget, JointTiming, Phase, Target, Timing};
+use wrasse_flight::{Grip, Held, JointTarget, JointTiming, LONGEST, Phase, Target, Timing};
 use wrasse_spatial::{Pose, Vec3};
 use wrasse_vehicle::JOINTS;
 
@@ -107,17 +107,14 @@ fn move_tool(
     Some(Phase::MoveTool { target, axes: axes(m.axes), timing })
 }
 
-/// Most control periods of a phase: ten days at 100 Hz.
-const LONGEST: f64 = 86_400_000.0;
-
 /// A duration (s) that can be planned.
 fn duration(r: &mut Reading<'_>, path: &[Step<'_>], given: f64, mission: &MissionFile) -> f64 {
     // A rate that cannot be is complained of where it stands.
     let (given, rate) = (r.positive(path, given), mission.control.rate_hz.min(RATES.1));
-    if given * rate > LONGEST {
+    if given * rate > f64::from(LONGEST) {
         let message =
             format!("{given} s at {rate} control periods per second: no phase is so long");
-        let longest = LONGEST / rate;
+        let longest = f64::from(LONGEST) / rate;
         r.error(path, message, &format!("at most {longest} s at this control.rate_hz"));
         return 1.0;
     }

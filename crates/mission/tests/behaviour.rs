@@ -147,7 +147,7 @@ fn a_grasp_keeps_momentum_and_takes_energy() {
     assert!(ledger.energy_at_grasps < -0.01, "{ledger:?}");
     let after = ledger.energy_start + ledger.energy_at_grasps;
     assert!((ledger.energy_end - after).abs() < 1e-9, "{ledger:?}");
-    assert!(case.events.iter().any(|e| e.text == "grasped module"), "{:?}", case.events);
+    assert!(case.events.iter().any(|e| e.text.starts_with("grasped module")), "{:?}", case.events);
 }
 
 /// Measured: the tool ends within 2.3e-16 m of where it ends without letting go.
@@ -170,7 +170,7 @@ fn what_is_released_and_grasped_again_at_rest_makes_no_difference() {
     assert!((shift(&let_go) - shift(&kept)).abs() < 1e-12);
     let said: Vec<&str> = let_go.events.iter().map(|e| e.text.as_str()).collect();
     for words in ["released module", "grasped module"] {
-        assert!(said.contains(&words), "{said:?}");
+        assert!(said.iter().any(|text| text.starts_with(words)), "{said:?}");
     }
 }
 
