@@ -10,7 +10,7 @@ use crate::plots::{FEWEST_SAMPLES, NUMBERS, numbers_per_sample, plot_data};
 use crate::summary::passed;
 
 /// Most of the page that goes to the sections of the cases, plots not counted (bytes).
-const DETAILS: usize = 1_000_000;
+const DETAILS: usize = 2_500_000;
 
 /// The page as text: its styles, scripts, drawings and plotted numbers are all inside, and its
 /// content policy forbids it to load anything.
