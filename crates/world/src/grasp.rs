@@ -5,7 +5,7 @@ use crate::world::{Drive, World};
 use wrasse_dynamics::{
     BodyId, Frame, JointDrive, PerBody, Robot, State, driven_dynamics, inverse_dynamics, kinematics,
 };
-use wrasse_spatial::{SpatialForce, SpatialVelocity, Vec3};
+use wrasse_spatial::{SpatialForce, SpatialVelocity};
 
 /// A grasp that was refused: the grip and the payload move too differently.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -150,10 +150,5 @@ impl<const J: usize> World<J> {
             |robot: Robot<f64, J>, (frame, p): &(Frame<f64>, _)| robot.with_payload(frame, p);
         self.robot = self.held.iter().fold(self.empty, holding);
         self.mass = mass;
-    }
-
-    /// Centre of mass of the vehicle and what it holds (m, inertial axes).
-    pub fn centre_of_mass(&self) -> Vec3<f64> {
-        self.system.p_NScm_N
     }
 }
