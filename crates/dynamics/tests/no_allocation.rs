@@ -1,14 +1,13 @@
 //! The real-time claim: no kernel touches the heap.
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 #![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
-#![allow(unsafe_code, reason = "a global allocator is unsafe to implement; this one only counts")]
 
+mod counting_allocator;
 #[path = "random_robot/mod.rs"]
 mod random_robot;
 
+use counting_allocator::allocations;
 use random_robot::{JOINTS, Random, Recipe, Scene};
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
 use std::hint::black_box;
 use wrasse_dynamics::{
     BaseMode, BodyId, Cholesky, Generalized, Joint, JointDrive, JointKind, PerBody, Robot, State,
@@ -19,43 +18,6 @@ use wrasse_dynamics::{
     printed_reaction, reaction_null_space, velocity_from_momentum, virtual_manipulator,
 };
 use wrasse_spatial::SpatialForce;
-
-struct Counting;
-
-thread_local! {
-    /// Calls to the allocator on this thread: the test runner's own threads do not count.
-    static CALLS: Cell<usize> = const { Cell::new(0) };
-}
-
-fn count() {
-    CALLS.with(|calls| calls.set(calls.get() + 1));
-}
-
-// SAFETY: every call goes on to the system's allocator unchanged; counting allocates nothing.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count();
-        unsafe { System.alloc(layout) }
-    }
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        count();
-        unsafe { System.dealloc(pointer, layout) }
-    }
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        count();
-        unsafe { System.realloc(pointer, layout, size) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
-
-/// Calls to the allocator while something runs.
-fn allocations(run: impl FnOnce()) -> usize {
-    let before = CALLS.with(Cell::get);
-    run();
-    CALLS.with(Cell::get) - before
-}
 
 fn scene() -> Scene {
     Scene::new(&Recipe { seed: 7, joints: 9, arms: 2, sliding: 0.25, branching: 0.3 })

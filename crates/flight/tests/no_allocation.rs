@@ -1,61 +1,24 @@
 //! The real-time claim: a control period of the flight computer does not touch the heap.
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 #![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
-#![allow(unsafe_code, reason = "a global allocator is unsafe to implement; this one only counts")]
 
 #[path = "inverse_kinematics/arms.rs"]
 #[allow(dead_code, reason = "the inverse kinematics asks more of the same arms")]
 mod arms;
+#[path = "../../dynamics/tests/counting_allocator/mod.rs"]
+mod counting_allocator;
 #[path = "laws/flights.rs"]
 #[allow(dead_code, reason = "the laws ask more of the same flights")]
 mod flights;
 
+use counting_allocator::allocations;
 use flights::{Flight, aside, at_rest, drifting, robot, setup};
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
 use std::hint::black_box;
 use wrasse_dynamics::kinematics;
 use wrasse_flight::{
     ArmLaw, Axes, Grip, Held, JointTarget, JointTiming, Measurement, NoWay, Phase,
 };
 use wrasse_spatial::{Pose, vec3};
-
-struct Counting;
-
-thread_local! {
-    /// Calls to the allocator on this thread: the test runner's own threads do not count.
-    static CALLS: Cell<usize> = const { Cell::new(0) };
-}
-
-fn count() {
-    CALLS.with(|calls| calls.set(calls.get() + 1));
-}
-
-// SAFETY: every call goes on to the system's allocator unchanged; counting allocates nothing.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        count();
-        unsafe { System.alloc(layout) }
-    }
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        count();
-        unsafe { System.dealloc(pointer, layout) }
-    }
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        count();
-        unsafe { System.realloc(pointer, layout, size) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
-
-/// Calls to the allocator while something runs.
-fn allocations(run: impl FnOnce()) -> usize {
-    let before = CALLS.with(Cell::get);
-    run();
-    CALLS.with(Cell::get) - before
-}
 
 fn to_tool_pose(X: Pose<f64>) -> Phase<f64, 7> {
     let to = JointTarget::Tool(X, Axes::Base);
