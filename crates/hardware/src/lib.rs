@@ -1,10 +1,23 @@
-//! What is bolted on, as plain data: joint drives, attitude actuators, their limits. No heap, no
-//! `std`: the flight code and the simulated world read the same numbers.
+//! What is bolted on, as plain data: joint drives, wheels, gyros, thrusters, sensors, their limits. No
+//! heap, no `std`: the flight code and the simulated world read the same numbers.
 #![no_std]
+#![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
+mod actuators;
+mod gyro;
+mod list;
+mod sensor;
 mod set_point;
+mod thruster;
+mod wheel;
 
+pub use actuators::{ActuatorCommand, ActuatorReadings, Actuators};
+pub use gyro::{ControlMomentGyro, GYROS};
+pub use list::List;
+pub use sensor::{RateGyro, Sensors, StarTracker};
 pub use set_point::{SetPoint, SetPointMotion};
+pub use thruster::{STANDARD_GRAVITY, THRUSTERS, Tank, Thruster};
+pub use wheel::{ReactionWheel, WHEELS};
 
 /// What a joint and its drive can do. `None`: not limited, or not known.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
