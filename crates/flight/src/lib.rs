@@ -3,6 +3,7 @@
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
 pub mod inverse_kinematics;
+pub mod steering;
 pub mod trajectory;
 
 mod attitude_control;

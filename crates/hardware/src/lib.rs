@@ -14,7 +14,7 @@ mod wheel;
 pub use actuators::{ActuatorCommand, ActuatorReadings, Actuators};
 pub use gyro::{ControlMomentGyro, GYROS};
 pub use list::List;
-pub use sensor::{RateGyro, Sensors, StarTracker};
+pub use sensor::{RateGyro, Sensors, StarTracker, TrackerReading};
 pub use set_point::{SetPoint, SetPointMotion};
 pub use thruster::{STANDARD_GRAVITY, THRUSTERS, Tank, Thruster};
 pub use wheel::{ReactionWheel, WHEELS};

@@ -1,6 +1,6 @@
 //! Sensors of attitude and joints.
 
-use wrasse_spatial::Vec3;
+use wrasse_spatial::{Quat, Real, Vec3};
 
 /// A rate gyro of three axes, fixed to the base.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -39,4 +39,41 @@ pub struct Sensors<T> {
     pub attitude: Option<(RateGyro<T>, StarTracker<T>)>,
     /// Joint positions are rounded to multiples of this (rad or m); zero: not rounded.
     pub encoder_step: T,
+}
+
+/// What a star tracker says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TrackerReading<T> {
+    /// Attitude of the base, `quat_NB`.
+    pub quat_NB: Quat<T>,
+    /// How long ago it was so (s).
+    pub age: T,
+}
+
+impl RateGyro<f64> {
+    /// The same sensor over another scalar.
+    pub fn cast<T: Real>(&self) -> RateGyro<T> {
+        let c = T::from_f64;
+        RateGyro {
+            bias_B: self.bias_B.map(c),
+            angle_random_walk: c(self.angle_random_walk),
+            bias_random_walk: c(self.bias_random_walk),
+            rate_step: c(self.rate_step),
+        }
+    }
+}
+
+impl StarTracker<f64> {
+    /// The same sensor over another scalar.
+    pub fn cast<T: Real>(&self) -> StarTracker<T> {
+        let c = T::from_f64;
+        StarTracker {
+            boresight_B: self.boresight_B.map(c),
+            noise_across: c(self.noise_across),
+            noise_about: c(self.noise_about),
+            interval: c(self.interval),
+            latency: c(self.latency),
+            rate_limit: c(self.rate_limit),
+        }
+    }
 }

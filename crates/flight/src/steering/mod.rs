@@ -1,0 +1,13 @@
+//! Steering: from a wanted torque and force to what each actuator is told, within limits. What could
+//! not be given is reported, not hidden.
+
+use wrasse_spatial::Vec3;
+
+/// What each unit of a group is told, and what is missing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Allocation<T, const N: usize> {
+    /// For each unit: torque of a wheel's motor (N·m) or rate of a gimbal (rad/s).
+    pub values: [T; N],
+    /// What was wanted less what these give, base axes (N·m).
+    pub missing_B: Vec3<T>,
+}
