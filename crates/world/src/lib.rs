@@ -5,19 +5,23 @@
 //! at any step size. The ledger never reads that state: it sums the bodies one by one.
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
+mod command;
 mod flow;
 mod free_body;
 mod grasp;
 mod ledger;
+mod noise;
 mod rates;
+mod setup;
 mod stepper;
 mod world;
 
+pub use command::{Failure, Saturation};
 pub use flow::Flow;
 pub use free_body::FreeBody;
 pub use grasp::GraspRefused;
 pub use ledger::{Account, Ledger};
+pub use noise::Noise;
 pub use stepper::{Displacement, Stepper, dormand_prince, runge_kutta_4};
-pub use world::{
-    BaseAttitude, Drive, NonFinite, OutsideWrench, Saturation, SystemState, World, WorldSetup,
-};
+pub use setup::{BaseAttitude, Drive, Equipment, OutsideWrench, WorldSetup};
+pub use world::{NonFinite, SystemState, World};
