@@ -10,10 +10,10 @@ use crate::quantity::Watch;
 use crate::telemetry::Recorder;
 use wrasse_dynamics::{Payload, kinematics};
 use wrasse_flight::{Command, FlightComputer, Grip, Sensed};
-use wrasse_hardware::{SetPoint, SetPointMotion};
+use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::{Pose, Vec3};
 use wrasse_vehicle::JOINTS;
-use wrasse_world::{BaseAttitude, Drive, Saturation, Stepper, World, WorldSetup};
+use wrasse_world::{BaseAttitude, Drive, Equipment, Saturation, Stepper, World, WorldSetup};
 
 /// What a flight leaves behind.
 #[derive(Debug)]
@@ -117,6 +117,7 @@ impl<'a> Flight<'a> {
             robot: &case.vehicle.robot,
             limits: &case.vehicle.limits,
             actuator: case.vehicle.attitude_actuator,
+            equipment: Equipment::default(),
             base: case.base,
             stepper,
             start: case.start,
@@ -135,7 +136,7 @@ impl<'a> Flight<'a> {
             }
             Drive::Follow(SetPointMotion::between(at(0.0), at(period), period))
         });
-        world.command(&drives, Vec3::zero(), period);
+        world.command(&drives, Vec3::zero(), &ActuatorCommand::default(), period);
         let floating = case.payloads.iter().enumerate().map(|(i, p)| match p.start {
             PayloadStart::Held(_) => None,
             PayloadStart::Free(..) => Some(world.add_free_body(case.free_body(i))),
@@ -217,7 +218,12 @@ impl<'a> Flight<'a> {
             }
         });
         self.set_points = command.set_points;
-        let cut = self.world.command(&drives, command.attitude_torque_B, period);
+        let cut = self.world.command(
+            &drives,
+            command.attitude_torque_B,
+            &ActuatorCommand::default(),
+            period,
+        );
         for saturation in cut {
             if !self.said.contains(&saturation) {
                 self.said.push(saturation);
@@ -264,6 +270,14 @@ impl<'a> Flight<'a> {
                     self.case.vehicle.attitude_actuator.map_or(f64::NAN, |a| a.momentum_limit);
                 format!("attitude actuator full: {limit} N·m·s about {}", axis(i))
             }
+            Saturation::WheelTorque(i) => format!("motor of wheel {i} at its torque limit"),
+            Saturation::WheelSpeed(i) => format!("wheel {i} at its speed limit"),
+            Saturation::GimbalRate(i) => format!("gimbal {i} at its rate limit"),
+            Saturation::GimbalMotor(i) => format!("motor of gimbal {i} at its torque limit"),
+            Saturation::PulseTooShort(i) => {
+                format!("thruster {i} stays shut: the pulse is shorter than it can be")
+            }
+            Saturation::TankEmpty => "thrusters stay shut: the tank is empty".to_string(),
         }
     }
 

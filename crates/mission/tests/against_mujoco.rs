@@ -5,9 +5,10 @@
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use wrasse_dynamics::State;
+use wrasse_hardware::ActuatorCommand;
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Vec3};
 use wrasse_vehicle::{JOINTS, Vehicle, read_vehicle};
-use wrasse_world::{BaseAttitude, Drive, Stepper, World, WorldSetup};
+use wrasse_world::{BaseAttitude, Drive, Equipment, Stepper, World, WorldSetup};
 
 fn validation() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation")
@@ -64,13 +65,19 @@ fn coasting_free_flyers_move_as_mujoco_has_it() {
             robot: &vehicle.robot,
             limits: &[],
             actuator: None,
+            equipment: Equipment::default(),
             base: BaseAttitude::Free,
             stepper: Stepper::Adaptive { tolerance: 1e-13 },
             start: state_of(&vehicle, &case["start"]),
             held: &[],
         });
         let duration = case["duration_s"].as_f64().expect("a duration");
-        world.command(&[Drive::Effort(0.0); JOINTS], Vec3::zero(), duration);
+        world.command(
+            &[Drive::Effort(0.0); JOINTS],
+            Vec3::zero(),
+            &ActuatorCommand::default(),
+            duration,
+        );
         world.advance(duration).expect("it stays finite");
         let off = difference(&world.state(), &state_of(&vehicle, &case["end"]));
         let spread = case["spread_of_coarser_steps"][1].as_f64().expect("a spread");

@@ -1,7 +1,8 @@
 //! Grasp and release of rigid payloads: total momentum continues exactly.
 
 use crate::free_body::FreeBody;
-use crate::world::{Drive, World};
+use crate::setup::Drive;
+use crate::world::World;
 use wrasse_dynamics::{
     BodyId, Frame, JointDrive, PerBody, Robot, State, driven_dynamics, inverse_dynamics, kinematics,
 };

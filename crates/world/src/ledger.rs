@@ -139,8 +139,9 @@ impl Ledger {
 
 #[cfg(test)]
 mod tests {
-    use crate::{BaseAttitude, Drive, FreeBody, Ledger, Stepper, World, WorldSetup};
+    use crate::{BaseAttitude, Drive, Equipment, FreeBody, Ledger, Stepper, World, WorldSetup};
     use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, Payload, Robot, State};
+    use wrasse_hardware::ActuatorCommand;
     use wrasse_spatial::{Pose, SpatialVelocity, Sym3, Vec3, vec3};
 
     /// A base with one arm, moving; flown for a second under a joint torque and an actuator torque.
@@ -154,6 +155,7 @@ mod tests {
             robot: &robot,
             limits: &[],
             actuator: None,
+            equipment: Equipment::default(),
             base: BaseAttitude::Controlled,
             stepper: Stepper::Fixed { step: 0.01 },
             start: State {
@@ -165,7 +167,12 @@ mod tests {
         });
         let mut ledger = world.open_ledger();
         for _ in 0..100 {
-            world.command(&[Drive::Effort(0.3)], vec3(0.1, -0.2, 0.1), 0.01);
+            world.command(
+                &[Drive::Effort(0.3)],
+                vec3(0.1, -0.2, 0.1),
+                &ActuatorCommand::default(),
+                0.01,
+            );
             world.advance(0.01).unwrap();
         }
         spoil(&mut world);
@@ -256,6 +263,7 @@ mod tests {
             robot: &robot,
             limits: &[],
             actuator: None,
+            equipment: Equipment::default(),
             base: BaseAttitude::Free,
             stepper: Stepper::Fixed { step: 0.01 },
             start: State { V_NB_B: V, ..State::default() },

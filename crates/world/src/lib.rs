@@ -22,6 +22,6 @@ pub use free_body::FreeBody;
 pub use grasp::GraspRefused;
 pub use ledger::{Account, Ledger};
 pub use noise::Noise;
-pub use stepper::{Displacement, Stepper, dormand_prince, runge_kutta_4};
 pub use setup::{BaseAttitude, Drive, Equipment, OutsideWrench, WorldSetup};
+pub use stepper::{Displacement, Stepper, dormand_prince, runge_kutta_4};
 pub use world::{NonFinite, SystemState, World};

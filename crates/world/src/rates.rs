@@ -1,7 +1,8 @@
 //! The right-hand side: how fast everything changes, given what drives it.
 
 use crate::flow::Flow;
-use crate::world::{BaseAttitude, Drive, SystemState, World};
+use crate::setup::{BaseAttitude, Drive};
+use crate::world::{SystemState, World};
 use wrasse_dynamics::{
     BaseMode, BodyId, Dynamics, JointDrive, Kinematics, PerBody, State, driven_dynamics, kinematics,
 };
@@ -81,7 +82,7 @@ impl<const J: usize> World<J> {
     pub(crate) fn rates(&self, t0: f64, t: f64, d: &Flow<J>) -> Flow<J> {
         let state = self.expand(&self.system.displaced(d), t0 + t);
         let k = kinematics(&self.robot, &state);
-        let outside = self.outside_wrench(t0 + t);
+        let outside = self.outside_wrench(t0 + t, &k);
         let found = self.dynamics_at(&k, t0 + t, &outside);
         let (R_NB, w) = (state.X_NB.rotation, state.V_NB_B.angular);
         let torque_B = found.force.base.torque + self.actuator_torque_B;

@@ -1,32 +1,16 @@
 //! The world: a vehicle in free space, what drives it, and its motion through time.
 
+use crate::command::Failure;
 use crate::flow::Flow;
 use crate::free_body::FreeBody;
+use crate::setup::{BaseAttitude, Drive, Equipment, OutsideWrench, WorldSetup};
 use crate::stepper::{Displacement, Stepper, dormand_prince, equal_steps, runge_kutta_4};
 use std::fmt;
-use wrasse_dynamics::{Dynamics, Frame, Payload, PerBody, Robot, State, kinematics, momentum};
-use wrasse_hardware::{AttitudeActuator, JointLimits, SetPointMotion};
+use wrasse_dynamics::{
+    Dynamics, Frame, Kinematics, Payload, PerBody, Robot, State, kinematics, momentum,
+};
+use wrasse_hardware::{ActuatorCommand, ActuatorReadings, AttitudeActuator, JointLimits};
 use wrasse_spatial::{Pose, Quat, SpatialForce, Vec3, turned_by};
-
-/// What becomes of the base's attitude.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum BaseAttitude {
-    /// Held exactly; the torque that this takes is recorded as the actuator's.
-    Held,
-    /// Turned by the ideal actuator as it is commanded, within its limits.
-    Controlled,
-    /// Nothing acts on it but the arm.
-    Free,
-}
-
-/// What drives a joint for the current control period.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Drive {
-    /// Follows the set-points exactly, whatever it takes.
-    Follow(SetPointMotion<f64>),
-    /// A torque (N·m) or force (N), constant over the period.
-    Effort(f64),
-}
 
 /// The integrated state: all of it in inertial axes but the joints.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,40 +43,6 @@ impl<const J: usize> SystemState<J> {
             angular: self.angular + d.angular,
         }
     }
-}
-
-/// A wrench from outside on each body at its origin, in its axes, as a function of time (s).
-pub type OutsideWrench<const J: usize> =
-    Box<dyn Fn(f64) -> PerBody<SpatialForce<f64>, J> + Send + Sync>;
-
-/// What a world is made of.
-#[derive(Debug, Clone)]
-pub struct WorldSetup<'a, const J: usize> {
-    /// The vehicle, with nothing in its grip.
-    pub robot: &'a Robot<f64, J>,
-    /// Limits of its joints, in the robot's order.
-    pub limits: &'a [JointLimits<f64>],
-    /// The ideal attitude actuator, if it has one.
-    pub actuator: Option<AttitudeActuator<f64>>,
-    /// What becomes of the base's attitude.
-    pub base: BaseAttitude,
-    /// How the motion is integrated.
-    pub stepper: Stepper,
-    /// State at the start.
-    pub start: State<f64, J>,
-    /// Payloads held from the start: where, and what.
-    pub held: &'a [(Frame<f64>, Payload<f64>)],
-}
-
-/// A limit that cut a command.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Saturation {
-    /// The drive of this joint.
-    JointEffort(usize),
-    /// The actuator's torque about this base axis (0, 1, 2).
-    ActuatorTorque(usize),
-    /// The actuator's stored momentum about this base axis.
-    ActuatorMomentum(usize),
 }
 
 /// A number that is no longer finite.
@@ -129,11 +79,14 @@ pub struct World<const J: usize> {
     pub(crate) drives: [Drive; J],
     pub(crate) actuator_torque_B: Vec3<f64>,
     outside: Option<OutsideWrench<J>>,
+    equipment: Equipment,
+    pub(crate) told: ActuatorCommand<f64>,
+    failures: Vec<Failure>,
     /// Time (s), and what rounding took from it.
-    time: f64,
+    pub(crate) time: f64,
     time_carry: f64,
     /// Start of the current period (s), and how much of it has gone (s).
-    period_start: f64,
+    pub(crate) period_start: f64,
     pub(crate) into_period: f64,
     /// Last accepted step of the adaptive stepper (s).
     last_step: f64,
@@ -182,6 +135,9 @@ impl<const J: usize> World<J> {
             drives: [Drive::Effort(0.0); J],
             actuator_torque_B: Vec3::zero(),
             outside: None,
+            equipment: setup.equipment,
+            told: ActuatorCommand::default(),
+            failures: Vec::new(),
             time: 0.0,
             time_carry: 0.0,
             period_start: 0.0,
@@ -222,12 +178,26 @@ impl<const J: usize> World<J> {
     pub fn dynamics(&self) -> Dynamics<f64, J> {
         let t = self.into_period;
         let state = self.state();
-        self.dynamics_at(&kinematics(&self.robot, &state), t, &self.outside_wrench(t))
+        let k = kinematics(&self.robot, &state);
+        self.dynamics_at(&k, t, &self.outside_wrench(t, &k))
     }
     /// Torque of the attitude actuator on the base now (N·m, base axes), within its limits. What
     /// holds an attitude exactly is the base's entry of [`dynamics`](Self::dynamics).
     pub fn actuator_torque_B(&self) -> Vec3<f64> {
         self.actuator_torque_B
+    }
+    /// What wheels, gyros and tank say of themselves.
+    pub fn actuator_readings(&self) -> ActuatorReadings<f64> {
+        ActuatorReadings {
+            wheel_speed: self.equipment.wheel_speed,
+            gimbal_angle: self.equipment.gimbal_angle,
+            gimbal_rate: self.told.gimbal_rate,
+            propellant: self.equipment.actuators.tank.map_or(0.0, |tank| tank.propellant),
+        }
+    }
+    /// Let something break.
+    pub fn fail(&mut self, failure: Failure) {
+        self.failures.push(failure);
     }
     /// What is in the grips: the frame that holds it, and its matter seen from there.
     pub fn held(&self) -> &[(Frame<f64>, Payload<f64>)] {
@@ -237,70 +207,15 @@ impl<const J: usize> World<J> {
     pub fn stored_momentum_B(&self) -> Vec3<f64> {
         -self.system.quat_NB.to_matrix().transpose_mul(self.booked.from_actuator)
     }
-    pub(crate) fn outside_wrench(&self, t: f64) -> PerBody<SpatialForce<f64>, J> {
+    pub(crate) fn outside_wrench(
+        &self,
+        t: f64,
+        k: &Kinematics<'_, f64, J>,
+    ) -> PerBody<SpatialForce<f64>, J> {
         match &self.outside {
-            Some(wrench) => wrench(self.period_start + t),
+            Some(wrench) => wrench(self.period_start + t, k),
             None => PerBody::filled(SpatialForce::zero()),
         }
-    }
-
-    /// Set what drives the joints and turns the base for the coming period of `period` (s), each
-    /// within its limits; what the limits cut is returned.
-    pub fn command(
-        &mut self,
-        drives: &[Drive],
-        torque_B: Vec3<f64>,
-        period: f64,
-    ) -> Vec<Saturation> {
-        (self.period_start, self.into_period) = (self.time, 0.0);
-        let mut cut = Vec::new();
-        for (j, drive) in drives.iter().enumerate().take(J) {
-            self.drives[j] = match (*drive, self.limits[j].effort) {
-                (Drive::Effort(tau), Some(limit)) if tau.abs() > limit => {
-                    cut.push(Saturation::JointEffort(j));
-                    Drive::Effort(tau.clamp(-limit, limit))
-                }
-                (drive, _) => drive,
-            };
-        }
-        self.actuator_torque_B = Vec3::zero();
-        if self.base == BaseAttitude::Controlled {
-            self.actuator_torque_B = self.within_actuator_limits(torque_B, period, &mut cut);
-        }
-        cut
-    }
-
-    /// The torque that the ideal actuator gives: within its torque, and within what it can store.
-    fn within_actuator_limits(
-        &self,
-        wanted_B: Vec3<f64>,
-        period: f64,
-        cut: &mut Vec<Saturation>,
-    ) -> Vec3<f64> {
-        let Some(limits) = self.actuator else { return wanted_B };
-        let h_B = self.stored_momentum_B();
-        // Seen from a base that turns, what is stored turns the other way: ḣ_B = -τ - w × h_B.
-        let carried = self.state().V_NB_B.angular.cross(h_B).to_array();
-        let stored = h_B.to_array();
-        let mut given = wanted_B.to_array();
-        for axis in 0..3 {
-            let wanted = given[axis];
-            let torque = wanted.clamp(-limits.torque_limit, limits.torque_limit);
-            if torque != wanted {
-                cut.push(Saturation::ActuatorTorque(axis));
-            }
-            // It may reach ± its limit, not pass it: a full actuator gives back what is carried to it,
-            // even if nothing is asked, as far as its torque goes. (To first order in the turn over
-            // the period.)
-            let lowest = (stored[axis] - limits.momentum_limit) / period - carried[axis];
-            let highest = (stored[axis] + limits.momentum_limit) / period - carried[axis];
-            let held = if lowest <= highest { torque.clamp(lowest, highest) } else { torque };
-            given[axis] = held.clamp(-limits.torque_limit, limits.torque_limit);
-            if given[axis] != torque {
-                cut.push(Saturation::ActuatorMomentum(axis));
-            }
-        }
-        Vec3::from_array(given)
     }
 
     /// Advance by `period` (s): the period that the commands were set for, at once or in parts.

@@ -5,9 +5,11 @@ mod branched;
 
 use branched::{J, moving, robot};
 use wrasse_dynamics::State;
-use wrasse_hardware::{AttitudeActuator, SetPointMotion};
+use wrasse_hardware::{ActuatorCommand, AttitudeActuator, SetPointMotion};
 use wrasse_spatial::{SpatialVelocity, Vec3, vec3};
-use wrasse_world::{BaseAttitude, Drive, Ledger, Saturation, Stepper, World, WorldSetup};
+use wrasse_world::{
+    BaseAttitude, Drive, Equipment, Ledger, Saturation, Stepper, World, WorldSetup,
+};
 
 /// Control period (s).
 const PERIOD: f64 = 0.01;
@@ -19,6 +21,7 @@ fn world(base: BaseAttitude, start: State<f64, J>) -> World<J> {
         robot: &robot(),
         limits: &[],
         actuator: Some(LIMITS),
+        equipment: Equipment::default(),
         base,
         stepper: Stepper::Fixed { step: PERIOD },
         start,
@@ -43,7 +46,7 @@ fn fly(world: &mut World<J>, torque_B: Vec3<f64>, time: f64) -> (Ledger, f64) {
     let mut fullest = 0.0_f64;
     let mut left = (time / PERIOD).round();
     while left > 0.0 {
-        world.command(&still(), torque_B, PERIOD);
+        world.command(&still(), torque_B, &ActuatorCommand::default(), PERIOD);
         world.advance(PERIOD).expect("stays finite");
         world.update_ledger(&mut ledger);
         let stored = world.stored_momentum_B().to_array();
@@ -56,7 +59,7 @@ fn fly(world: &mut World<J>, torque_B: Vec3<f64>, time: f64) -> (Ledger, f64) {
 #[test]
 fn a_torque_beyond_the_limit_is_cut_axis_by_axis_and_reported() {
     let mut world = world(BaseAttitude::Controlled, turning(Vec3::zero()));
-    let cut = world.command(&still(), vec3(0.4, -0.7, 2.0), PERIOD);
+    let cut = world.command(&still(), vec3(0.4, -0.7, 2.0), &ActuatorCommand::default(), PERIOD);
     assert_eq!(cut, [Saturation::ActuatorTorque(1), Saturation::ActuatorTorque(2)]);
     assert_eq!(world.actuator_torque_B(), vec3(0.4, -0.5, 0.5));
 }
@@ -65,7 +68,7 @@ fn a_torque_beyond_the_limit_is_cut_axis_by_axis_and_reported() {
 fn only_a_base_that_is_controlled_takes_a_torque() {
     for base in [BaseAttitude::Free, BaseAttitude::Held] {
         let mut world = world(base, turning(Vec3::zero()));
-        let cut = world.command(&still(), vec3(9.0, 9.0, 9.0), PERIOD);
+        let cut = world.command(&still(), vec3(9.0, 9.0, 9.0), &ActuatorCommand::default(), PERIOD);
         assert_eq!((cut, world.actuator_torque_B()), (vec![], Vec3::zero()));
     }
 }
@@ -77,12 +80,16 @@ fn an_actuator_without_limits_gives_what_is_asked() {
         robot: &setup_robot,
         limits: &[],
         actuator: None,
+        equipment: Equipment::default(),
         base: BaseAttitude::Controlled,
         stepper: Stepper::Fixed { step: PERIOD },
         start: turning(Vec3::zero()),
         held: &[],
     });
-    assert_eq!(world.command(&still(), vec3(1e4, 0.0, -1e4), PERIOD), []);
+    assert_eq!(
+        world.command(&still(), vec3(1e4, 0.0, -1e4), &ActuatorCommand::default(), PERIOD),
+        []
+    );
     assert_eq!(world.actuator_torque_B(), vec3(1e4, 0.0, -1e4));
 }
 
@@ -96,7 +103,8 @@ fn the_stored_momentum_stays_within_its_limit_though_the_base_turns() {
         let (_, fullest) = fly(&mut world, vec3(-0.4, -0.3, 0.1), 10.0);
         assert!(fullest > 0.999, "only {fullest} N·m·s stored: the limit was not reached");
         assert!(fullest < 1.0 + 2e-6, "{fullest} N·m·s stored");
-        let cut = world.command(&still(), vec3(-0.4, 0.0, 0.0), PERIOD);
+        let cut =
+            world.command(&still(), vec3(-0.4, 0.0, 0.0), &ActuatorCommand::default(), PERIOD);
         assert!(cut.contains(&Saturation::ActuatorMomentum(0)), "{cut:?}");
     }
 }
@@ -107,7 +115,7 @@ fn a_full_actuator_can_be_emptied() {
     let mut world = world(BaseAttitude::Controlled, turning(Vec3::zero()));
     fly(&mut world, vec3(-0.5, 0.0, 0.0), 4.0);
     let full = world.stored_momentum_B().x;
-    let cut = world.command(&still(), vec3(0.5, 0.0, 0.0), PERIOD);
+    let cut = world.command(&still(), vec3(0.5, 0.0, 0.0), &ActuatorCommand::default(), PERIOD);
     assert!(!cut.contains(&Saturation::ActuatorMomentum(0)), "{cut:?}");
     world.advance(PERIOD).expect("stays finite");
     let emptied = full - world.stored_momentum_B().x;
@@ -126,7 +134,7 @@ fn the_books_close_over_a_controlled_base_at_its_limits() {
         let t = f64::from(k) * PERIOD;
         let efforts = [0.9, -0.5, 0.7, -0.3].map(|tau| Drive::Effort(tau * (2.0 * t).cos()));
         let wanted = vec3(0.8 * t.sin(), -0.3, 0.4 * (0.7 * t).cos());
-        seen.extend(world.command(&efforts, wanted, PERIOD));
+        seen.extend(world.command(&efforts, wanted, &ActuatorCommand::default(), PERIOD));
         world.advance(PERIOD).expect("stays finite");
         world.update_ledger(&mut ledger);
     }
@@ -151,7 +159,12 @@ fn the_torque_that_holds_the_base_adds_up_to_the_change_of_angular_momentum() {
     let (quat_NB, before) = (world.system().quat_NB, world.account().angular);
     let mut sum = Vec3::zero();
     for _ in 0..100 {
-        world.command(&[0.9, -0.5, 0.7, -0.3].map(Drive::Effort), Vec3::zero(), PERIOD);
+        world.command(
+            &[0.9, -0.5, 0.7, -0.3].map(Drive::Effort),
+            Vec3::zero(),
+            &ActuatorCommand::default(),
+            PERIOD,
+        );
         for weight in [1.0, 4.0] {
             sum += holding_torque(&world) * (weight * PERIOD / 6.0);
             world.advance(0.5 * PERIOD).expect("stays finite");

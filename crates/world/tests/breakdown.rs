@@ -5,15 +5,26 @@ mod branched;
 
 use branched::{J, load, moving, robot};
 use wrasse_dynamics::{BodyId, PerBody, Robot};
-use wrasse_hardware::{AttitudeActuator, JointLimits};
+use wrasse_hardware::{ActuatorCommand, AttitudeActuator, JointLimits};
 use wrasse_spatial::{Pose, SpatialForce, SpatialVelocity, Vec3, vec3};
-use wrasse_world::{BaseAttitude, Drive, FreeBody, NonFinite, Stepper, World, WorldSetup};
+use wrasse_world::{
+    BaseAttitude, Drive, Equipment, FreeBody, NonFinite, Stepper, World, WorldSetup,
+};
 
 const STEPPERS: [Stepper; 2] =
     [Stepper::Fixed { step: 0.01 }, Stepper::Adaptive { tolerance: 1e-9 }];
 
 fn setup(robot: &Robot<f64, J>, stepper: Stepper, base: BaseAttitude) -> WorldSetup<'_, J> {
-    WorldSetup { robot, limits: &[], actuator: None, base, stepper, start: moving(), held: &[] }
+    WorldSetup {
+        robot,
+        limits: &[],
+        actuator: None,
+        equipment: Equipment::default(),
+        base,
+        stepper,
+        start: moving(),
+        held: &[],
+    }
 }
 
 fn world(stepper: Stepper, base: BaseAttitude) -> World<J> {
@@ -23,7 +34,7 @@ fn world(stepper: Stepper, base: BaseAttitude) -> World<J> {
 /// One control period of 10 ms after another, until it breaks.
 fn broken(world: &mut World<J>, drives: &[Drive; J], torque_B: Vec3<f64>) -> NonFinite {
     for _ in 0..100 {
-        world.command(drives, torque_B, 0.01);
+        world.command(drives, torque_B, &ActuatorCommand::default(), 0.01);
         if let Err(broken) = world.advance(0.01) {
             return broken;
         }
@@ -36,7 +47,7 @@ const IDLE: [Drive; J] = [Drive::Effort(0.0); J];
 /// A world whose link 3 feels a torque of `bad` N·m from 0.155 s on.
 fn disturbed(stepper: Stepper, bad: f64) -> World<J> {
     let mut world = world(stepper, BaseAttitude::Free);
-    world.set_outside_wrench(Box::new(move |t| {
+    world.set_outside_wrench(Box::new(move |t, _| {
         let mut on = PerBody::filled(SpatialForce::zero());
         on[BodyId::Link(3)].torque.x = if t > 0.155 { bad } else { 0.1 };
         on
@@ -64,7 +75,7 @@ fn a_wrench_that_is_not_a_number_is_reported_with_quantity_body_and_time() {
 #[test]
 fn within_a_long_period_the_time_of_the_step_is_reported() {
     let mut world = disturbed(STEPPERS[0], f64::NAN);
-    world.command(&IDLE, Vec3::zero(), 10.0);
+    world.command(&IDLE, Vec3::zero(), &ActuatorCommand::default(), 10.0);
     let broken = world.advance(10.0).expect_err("breaks");
     assert!((broken.time - 0.16).abs() < 1e-12, "at {} s", broken.time);
 }
@@ -106,7 +117,7 @@ fn a_base_without_joints_is_reported_by_its_attitude_and_a_held_one_by_its_momen
             [(BaseAttitude::Free, "attitude of the base"), (BaseAttitude::Held, "angular momentum")]
         {
             let mut world = World::new(&setup(&bare, stepper, base));
-            world.set_outside_wrench(Box::new(|_| {
+            world.set_outside_wrench(Box::new(|_, _| {
                 let mut on = PerBody::filled(SpatialForce::zero());
                 on.base.torque.x = f64::NAN;
                 on

@@ -5,8 +5,9 @@ mod atlas_class;
 
 use atlas_class::{J, coasting, cube, tool, unladen};
 use wrasse_dynamics::{Frame, Payload};
+use wrasse_hardware::ActuatorCommand;
 use wrasse_spatial::Vec3;
-use wrasse_world::{BaseAttitude, Drive, Stepper, World, WorldSetup};
+use wrasse_world::{BaseAttitude, Drive, Equipment, Stepper, World, WorldSetup};
 
 /// Drift over the coast: angular and linear momentum relative to the sum of the bodies' absolute
 /// momenta, centre of mass relative to the distance gone, energy relative to itself.
@@ -17,6 +18,7 @@ fn drift(stepper: Stepper) -> [f64; 4] {
         robot: &robot,
         limits: &[],
         actuator: None,
+        equipment: Equipment::default(),
         base: BaseAttitude::Free,
         stepper,
         start: coasting(),
@@ -29,7 +31,12 @@ fn drift(stepper: Stepper) -> [f64; 4] {
     let mut worst = [0.0_f64; 2];
     for second in 0..600 {
         for _ in 0..100 {
-            world.command(&[Drive::Effort(0.0); J], Vec3::zero(), 0.01);
+            world.command(
+                &[Drive::Effort(0.0); J],
+                Vec3::zero(),
+                &ActuatorCommand::default(),
+                0.01,
+            );
             world.advance(0.01).expect("stays finite");
         }
         world.update_ledger(&mut ledger);

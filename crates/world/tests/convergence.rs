@@ -7,9 +7,11 @@ mod branched;
 
 use branched::{J, moving};
 use wrasse_dynamics::{BodyId, PerBody, State};
-use wrasse_hardware::{SetPoint, SetPointMotion};
+use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::{Quat, SpatialForce, Vec3, vec3};
-use wrasse_world::{Account, BaseAttitude, Drive, OutsideWrench, Stepper, World, WorldSetup};
+use wrasse_world::{
+    Account, BaseAttitude, Drive, Equipment, OutsideWrench, Stepper, World, WorldSetup,
+};
 
 /// What a run ends with: where, how fast, and the momentum and energy summed over the bodies.
 struct End<const J: usize> {
@@ -21,7 +23,7 @@ struct End<const J: usize> {
 
 /// One control period of `span` (s), integrated in the world's own steps.
 fn end<const J: usize>(mut world: World<J>, drives: &[Drive; J], span: f64) -> End<J> {
-    world.command(drives, Vec3::zero(), span);
+    world.command(drives, Vec3::zero(), &ActuatorCommand::default(), span);
     world.advance(span).expect("stays finite");
     let s = *world.system();
     End { quat_NB: s.quat_NB, q: s.q, v: s.v, account: world.account() }
@@ -60,7 +62,7 @@ fn is_of_order_4(quantity: &str, slopes: [f64; 2]) {
 
 /// Wrenches from outside on three bodies, each with its own rhythm.
 fn pushed_and_twisted() -> OutsideWrench<J> {
-    Box::new(|t| {
+    Box::new(|t, _| {
         let mut on = PerBody::filled(SpatialForce::zero());
         on[BodyId::Base] = SpatialForce::new(
             vec3(0.8 * (1.3 * t).sin(), -0.5, 0.3 * (2.0 * t).cos()),
@@ -155,6 +157,7 @@ fn the_laden_servicer_moves_with_order_4_from_its_coast() {
             robot: &atlas_class::unladen(),
             limits: &[],
             actuator: None,
+            equipment: Equipment::default(),
             base: BaseAttitude::Free,
             stepper: Stepper::Fixed { step: h },
             start,
@@ -178,7 +181,7 @@ fn what_a_held_base_leaves_unexplained_falls_with_order_4() {
         start.V_NB_B.angular = Vec3::zero();
         let mut world = branched::world(start, BaseAttitude::Held, h);
         let mut ledger = world.open_ledger();
-        world.command(&mixed(), Vec3::zero(), SPAN);
+        world.command(&mixed(), Vec3::zero(), &ActuatorCommand::default(), SPAN);
         world.advance(SPAN).expect("stays finite");
         world.update_ledger(&mut ledger);
         ledger.rests()
@@ -201,6 +204,7 @@ fn the_error_of_the_adaptive_stepper_follows_its_tolerance() {
             robot: &branched::robot(),
             limits: &[],
             actuator: None,
+            equipment: Equipment::default(),
             base: BaseAttitude::Free,
             stepper: Stepper::Adaptive { tolerance },
             start: moving(),
@@ -230,12 +234,13 @@ fn a_step_that_meets_a_sudden_push_is_taken_back() {
             robot: &branched::robot(),
             limits: &[],
             actuator: None,
+            equipment: Equipment::default(),
             base: BaseAttitude::Free,
             stepper,
             start: moving(),
             held: &[],
         });
-        world.set_outside_wrench(Box::new(|t| {
+        world.set_outside_wrench(Box::new(|t, _| {
             let mut on = PerBody::filled(SpatialForce::zero());
             let late = (t - 1.0) / 0.03;
             on[BodyId::Link(1)].force.y = 20.0 * (-late * late).exp();

@@ -2,8 +2,9 @@
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
 use wrasse_dynamics::{Payload, PerBody, Robot, State};
+use wrasse_hardware::ActuatorCommand;
 use wrasse_spatial::{Mat3, Pose, Quat, SpatialForce, SpatialVelocity, Sym3, Vec3, vec3};
-use wrasse_world::{BaseAttitude, FreeBody, Stepper, World, WorldSetup};
+use wrasse_world::{BaseAttitude, Equipment, FreeBody, Stepper, World, WorldSetup};
 
 /// Where the bodies are at the start: in no special place.
 fn X_NT() -> Pose<f64> {
@@ -36,12 +37,13 @@ fn both(matter: Payload<f64>, V: SpatialVelocity<f64>, t: f64, h: f64) -> [FreeB
         robot: &robot,
         limits: &[],
         actuator: None,
+        equipment: Equipment::default(),
         base: BaseAttitude::Free,
         stepper: Stepper::Fixed { step: h },
         start: State { X_NB: X_NT(), V_NB_B: V, ..State::default() },
         held: &[],
     });
-    world.command(&[], Vec3::zero(), t);
+    world.command(&[], Vec3::zero(), &ActuatorCommand::default(), t);
     world.advance(t).expect("stays finite");
     let state = world.state();
     [alone, FreeBody::new(matter, &state.X_NB, &state.V_NB_B)]
@@ -137,6 +139,7 @@ fn beside_a_vehicle(body: FreeBody, stepper: Stepper, period: f64, count: usize)
         robot: &robot,
         limits: &[],
         actuator: None,
+        equipment: Equipment::default(),
         base: BaseAttitude::Free,
         stepper,
         start: State::default(),
@@ -144,7 +147,7 @@ fn beside_a_vehicle(body: FreeBody, stepper: Stepper, period: f64, count: usize)
     });
     world.add_free_body(body);
     for _ in 0..count {
-        world.command(&[], Vec3::zero(), period);
+        world.command(&[], Vec3::zero(), &ActuatorCommand::default(), period);
         world.advance(period).expect("stays finite");
     }
     world.free_bodies()[0]
@@ -187,6 +190,7 @@ fn the_books_close_over_a_vehicle_that_is_pushed_beside_a_free_body() {
             robot: &robot,
             limits: &[],
             actuator: None,
+            equipment: Equipment::default(),
             base: BaseAttitude::Free,
             stepper,
             start: State {
@@ -196,14 +200,14 @@ fn the_books_close_over_a_vehicle_that_is_pushed_beside_a_free_body() {
             held: &[],
         });
         world.add_free_body(tumbling());
-        world.set_outside_wrench(Box::new(|t| {
+        world.set_outside_wrench(Box::new(|t, _| {
             let mut on = PerBody::filled(SpatialForce::zero());
             on.base = SpatialForce::new(vec3(0.5, -0.2 * t, 0.3), vec3(3.0, 2.0 * t, -4.0));
             on
         }));
         let mut ledger = world.open_ledger();
         for _ in 0..20 {
-            world.command(&[], Vec3::zero(), 0.5);
+            world.command(&[], Vec3::zero(), &ActuatorCommand::default(), 0.5);
             for part in [0.3, 0.2] {
                 world.advance(part).expect("stays finite");
             }

@@ -7,9 +7,11 @@ use branched::{J, grip, load, moving, pose};
 use wrasse_dynamics::{
     BodyId, Frame, Joint, JointKind, Payload, Robot, State, jacobian, kinematics, mass_matrix,
 };
-use wrasse_hardware::{SetPoint, SetPointMotion};
+use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::{Pose, SpatialForce, SpatialInertia, SpatialVelocity, Sym3, Vec3, vec3};
-use wrasse_world::{Account, BaseAttitude, Drive, FreeBody, Ledger, Stepper, World, WorldSetup};
+use wrasse_world::{
+    Account, BaseAttitude, Drive, Equipment, FreeBody, Ledger, Stepper, World, WorldSetup,
+};
 
 /// Largest relative twist that is accepted, where a test does not ask for another (rad/s, m/s).
 const BOUNDS: (f64, f64) = (1.0, 1.0);
@@ -21,7 +23,7 @@ fn at_rest() -> State<f64, J> {
 /// A world whose joints are prescribed: they keep their rates.
 fn world(start: State<f64, J>, base: BaseAttitude) -> World<J> {
     let mut world = branched::world(start, base, 0.01);
-    world.command(&keeping_rates(&start), Vec3::zero(), 0.01);
+    world.command(&keeping_rates(&start), Vec3::zero(), &ActuatorCommand::default(), 0.01);
     world
 }
 
@@ -201,13 +203,14 @@ fn a_drive_that_keeps_its_rate_can_put_energy_in_at_a_grasp() {
         robot: &robot,
         limits: &[],
         actuator: None,
+        equipment: Equipment::default(),
         base: BaseAttitude::Free,
         stepper: Stepper::Fixed { step: 0.01 },
         start: State { v: [0.2], ..State::default() },
         held: &[],
     });
     let start = world.state();
-    world.command(&keeping_rates(&start), Vec3::zero(), 0.01);
+    world.command(&keeping_rates(&start), Vec3::zero(), &ActuatorCommand::default(), 0.01);
     let i =
         world.add_free_body(FreeBody::new(ball(10.0), &Pose::identity(), &SpatialVelocity::zero()));
     let mut ledger = world.open_ledger();
@@ -277,6 +280,7 @@ fn a_release_changes_no_velocity_no_place_no_momentum_and_no_energy() {
         robot: &robot,
         limits: &[],
         actuator: None,
+        equipment: Equipment::default(),
         base: BaseAttitude::Free,
         stepper: Stepper::Fixed { step: 0.01 },
         start: moving(),
@@ -308,7 +312,12 @@ fn the_books_close_over_grasps_and_releases_of_several_payloads() {
     let mut ledger = world.open_ledger();
     let fly = |world: &mut World<J>, ledger: &mut Ledger| {
         for _ in 0..50 {
-            world.command(&[0.3, -0.2, 0.1, 0.2].map(Drive::Effort), Vec3::zero(), 0.01);
+            world.command(
+                &[0.3, -0.2, 0.1, 0.2].map(Drive::Effort),
+                Vec3::zero(),
+                &ActuatorCommand::default(),
+                0.01,
+            );
             world.advance(0.01).expect("stays finite");
             world.update_ledger(ledger);
         }

@@ -6,9 +6,9 @@ mod atlas_class;
 
 use atlas_class::{J, SIDEWAYS_300MM_DEG, cube, tool, unladen};
 use wrasse_dynamics::{State, kinematics, mass_matrix, reaction_null_space};
-use wrasse_hardware::{SetPoint, SetPointMotion};
+use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::{Pose, Quat, Vec3};
-use wrasse_world::{BaseAttitude, Drive, Stepper, World, WorldSetup};
+use wrasse_world::{BaseAttitude, Drive, Equipment, Stepper, World, WorldSetup};
 
 /// A floating servicer with 500 kg, at rest.
 fn at_rest() -> World<J> {
@@ -18,6 +18,7 @@ fn at_rest() -> World<J> {
         robot: &robot,
         limits: &[],
         actuator: None,
+        equipment: Equipment::default(),
         base: BaseAttitude::Free,
         stepper: Stepper::Fixed { step: 0.005 },
         start,
@@ -31,7 +32,7 @@ fn lead(world: &mut World<J>, period: f64, set_points: &[[SetPoint<f64>; J]]) {
         let drives: [Drive; J] = std::array::from_fn(|j| {
             Drive::Follow(SetPointMotion::between(pair[0][j], pair[1][j], period))
         });
-        world.command(&drives, Vec3::zero(), period);
+        world.command(&drives, Vec3::zero(), &ActuatorCommand::default(), period);
         world.advance(period).expect("it stays finite");
     }
 }

@@ -6,7 +6,7 @@ mod branched;
 
 use branched::{J, moving};
 use wrasse_dynamics::{Dynamics, Generalized, PerBody, State, inverse_dynamics, kinematics};
-use wrasse_hardware::{SetPoint, SetPointMotion};
+use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::{SpatialForce, SpatialVelocity, Vec3};
 use wrasse_world::{BaseAttitude, Drive, World};
 
@@ -51,7 +51,7 @@ fn joints_that_follow_are_where_their_set_points_are() {
         // 3 steps of 10/3 ms.
         let mut world = branched::world(start(base), base, 0.0035);
         for k in 0..100 {
-            world.command(&follow(k), Vec3::zero(), PERIOD);
+            world.command(&follow(k), Vec3::zero(), &ActuatorCommand::default(), PERIOD);
             world.advance(PERIOD).expect("stays finite");
             let state = world.state();
             for j in 0..J {
@@ -70,7 +70,12 @@ fn joints_that_follow_are_where_their_set_points_are() {
 fn the_last_step_of_a_period_ends_where_the_period_does() {
     let mut world = branched::world(moving(), BaseAttitude::Free, 1.0 / 48.5);
     let whole = |j| SetPointMotion::between(set_point(j, 0), set_point(j, 100), 1.0);
-    world.command(&core::array::from_fn::<_, J, _>(|j| Drive::Follow(whole(j))), Vec3::zero(), 1.0);
+    world.command(
+        &core::array::from_fn::<_, J, _>(|j| Drive::Follow(whole(j))),
+        Vec3::zero(),
+        &ActuatorCommand::default(),
+        1.0,
+    );
     world.advance(1.0).expect("stays finite");
     for j in 0..J {
         assert_eq!(world.system().q[j], whole(j).at(1.0).position);
@@ -86,7 +91,7 @@ fn seen(base: BaseAttitude, h: f64) -> (SpatialVelocity<f64>, State<f64, J>, Dyn
         Drive::Follow(SetPointMotion::between(from, to, 50.0 * PERIOD))
     });
     let mut world = branched::world(start(base), base, 1e-3);
-    world.command(&drives, Vec3::zero(), 50.0 * PERIOD);
+    world.command(&drives, Vec3::zero(), &ActuatorCommand::default(), 50.0 * PERIOD);
     world.advance(0.2).expect("stays finite");
     let mut twists = vec![];
     let mut middle = None;
@@ -140,11 +145,11 @@ fn followed_and_driven(base: BaseAttitude, period: f64) -> f64 {
     let (mut following, mut driven): (World<J>, World<J>) = (new(), new());
     let mut k = 0.0;
     while k < count {
-        following.command(&drive_to(k), Vec3::zero(), period);
+        following.command(&drive_to(k), Vec3::zero(), &ActuatorCommand::default(), period);
         following.advance(0.5 * period).expect("stays finite");
         let efforts = following.dynamics().force.joints.map(Drive::Effort);
         following.advance(0.5 * period).expect("stays finite");
-        driven.command(&efforts, Vec3::zero(), period);
+        driven.command(&efforts, Vec3::zero(), &ActuatorCommand::default(), period);
         driven.advance(period).expect("stays finite");
         k += 1.0;
     }
@@ -174,7 +179,7 @@ fn the_work_booked_for_the_drives_is_the_energy_gained() {
         let mut world = branched::world(start(base), base, PERIOD);
         let mut ledger = world.open_ledger();
         for k in 0..200 {
-            world.command(&follow(k), Vec3::zero(), PERIOD);
+            world.command(&follow(k), Vec3::zero(), &ActuatorCommand::default(), PERIOD);
             world.advance(PERIOD).expect("stays finite");
             world.update_ledger(&mut ledger);
         }

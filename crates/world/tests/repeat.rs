@@ -5,9 +5,9 @@ mod branched;
 
 use branched::{J, moving};
 use wrasse_dynamics::{BodyId, PerBody, State};
-use wrasse_hardware::{SetPoint, SetPointMotion};
+use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::{SpatialForce, Vec3, vec3};
-use wrasse_world::{BaseAttitude, Drive, Ledger, Stepper, World, WorldSetup};
+use wrasse_world::{BaseAttitude, Drive, Equipment, Ledger, Stepper, World, WorldSetup};
 
 /// Length of a control period, and of the steps in it (s): powers of two, so that parts of the
 /// period add up to it exactly.
@@ -27,12 +27,13 @@ fn world(stepper: Stepper) -> World<J> {
         robot: &branched::robot(),
         limits: &[],
         actuator: None,
+        equipment: Equipment::default(),
         base: BaseAttitude::Free,
         stepper,
         start: moving(),
         held: &[],
     });
-    world.set_outside_wrench(Box::new(|t| {
+    world.set_outside_wrench(Box::new(|t, _| {
         let mut on = PerBody::filled(SpatialForce::zero());
         on[BodyId::Link(2)] = SpatialForce::new(vec3(0.3 * t, -0.2, 0.1), vec3(0.5, t * t, -0.4));
         on
@@ -48,7 +49,7 @@ fn drives() -> [Drive; J] {
 fn flown(stepper: Stepper, parts: u32) -> (State<f64, J>, Ledger) {
     let mut world = world(stepper);
     let mut ledger = world.open_ledger();
-    world.command(&drives(), Vec3::zero(), PERIOD);
+    world.command(&drives(), Vec3::zero(), &ActuatorCommand::default(), PERIOD);
     for _ in 0..parts {
         world.advance(PERIOD / f64::from(parts)).expect("stays finite");
     }
@@ -63,7 +64,12 @@ fn the_same_run_gives_the_same_bits() {
             let mut world = world(stepper);
             let mut ledger = world.open_ledger();
             for _ in 0..50 {
-                world.command(&[Drive::Effort(0.2); J], vec3(0.1, 0.2, 0.3), 0.01);
+                world.command(
+                    &[Drive::Effort(0.2); J],
+                    vec3(0.1, 0.2, 0.3),
+                    &ActuatorCommand::default(),
+                    0.01,
+                );
                 world.advance(0.01).expect("stays finite");
                 world.update_ledger(&mut ledger);
             }

@@ -8,6 +8,7 @@ use branched::{J, moving, robot};
 use wrasse_dynamics::{
     Generalized, PerBody, State, forward_dynamics, kinematics, kinetic_energy, momentum,
 };
+use wrasse_hardware::ActuatorCommand;
 use wrasse_spatial::{Pose, Quat, SpatialForce, SpatialVelocity, Vec3};
 use wrasse_world::{BaseAttitude, Drive};
 
@@ -84,7 +85,7 @@ fn plain(h: f64, turn_rate: TurnRate) -> State<f64, J> {
 /// The world over the same time.
 fn world(h: f64) -> State<f64, J> {
     let mut world = branched::world(moving(), BaseAttitude::Free, h);
-    world.command(&EFFORTS.map(Drive::Effort), Vec3::zero(), SPAN);
+    world.command(&EFFORTS.map(Drive::Effort), Vec3::zero(), &ActuatorCommand::default(), SPAN);
     world.advance(SPAN).expect("stays finite");
     world.state()
 }

@@ -4,7 +4,7 @@
 
 use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, Payload, Robot, State};
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Sym3, Vec3, vec3};
-use wrasse_world::{BaseAttitude, Stepper, World, WorldSetup};
+use wrasse_world::{BaseAttitude, Equipment, Stepper, World, WorldSetup};
 
 /// Joints of both arms.
 pub(crate) const J: usize = 4;
@@ -92,6 +92,7 @@ pub(crate) fn world(start: State<f64, J>, base: BaseAttitude, step: f64) -> Worl
         robot: &robot(),
         limits: &[],
         actuator: None,
+        equipment: Equipment::default(),
         base,
         stepper: Stepper::Fixed { step },
         start,

@@ -1,0 +1,106 @@
+//! What drives the joints and turns the base in a control period, within its limits.
+
+use crate::setup::{BaseAttitude, Drive};
+use crate::world::World;
+use wrasse_hardware::ActuatorCommand;
+use wrasse_spatial::Vec3;
+
+/// A limit that cut a command.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Saturation {
+    /// The drive of this joint.
+    JointEffort(usize),
+    /// The actuator's torque about this base axis (0, 1, 2).
+    ActuatorTorque(usize),
+    /// The actuator's stored momentum about this base axis.
+    ActuatorMomentum(usize),
+    /// The torque of this wheel's motor.
+    WheelTorque(usize),
+    /// The speed of this wheel.
+    WheelSpeed(usize),
+    /// The rate of this gimbal.
+    GimbalRate(usize),
+    /// The motor of this gimbal: it cannot turn the gimbal as it should beside what the turning base
+    /// asks of it.
+    GimbalMotor(usize),
+    /// This thruster was told to open for less than it can, and stayed shut.
+    PulseTooShort(usize),
+    /// Thrusters were told to open, and there is nothing to feed them.
+    TankEmpty,
+}
+
+/// Something that breaks, from now on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Failure {
+    /// The motor of this wheel gives nothing; the friction of its bearing stays.
+    Wheel(usize),
+    /// This gimbal is stuck.
+    Gimbal(usize),
+    /// This thruster stays shut.
+    ThrusterShut(usize),
+    /// This thruster stays open.
+    ThrusterOpen(usize),
+}
+
+impl<const J: usize> World<J> {
+    /// Set what drives the joints and turns the base for the coming period of `period` (s), each
+    /// within its limits; what the limits cut is returned.
+    pub fn command(
+        &mut self,
+        drives: &[Drive],
+        torque_B: Vec3<f64>,
+        actuators: &ActuatorCommand<f64>,
+        period: f64,
+    ) -> Vec<Saturation> {
+        (self.period_start, self.into_period) = (self.time, 0.0);
+        let mut cut = Vec::new();
+        for (j, drive) in drives.iter().enumerate().take(J) {
+            self.drives[j] = match (*drive, self.limits[j].effort) {
+                (Drive::Effort(tau), Some(limit)) if tau.abs() > limit => {
+                    cut.push(Saturation::JointEffort(j));
+                    Drive::Effort(tau.clamp(-limit, limit))
+                }
+                (drive, _) => drive,
+            };
+        }
+        self.actuator_torque_B = Vec3::zero();
+        if self.base == BaseAttitude::Controlled {
+            self.actuator_torque_B = self.within_actuator_limits(torque_B, period, &mut cut);
+        }
+        self.told = *actuators;
+        cut
+    }
+
+    /// The torque that the ideal actuator gives: within its torque, and within what it can store.
+    fn within_actuator_limits(
+        &self,
+        wanted_B: Vec3<f64>,
+        period: f64,
+        cut: &mut Vec<Saturation>,
+    ) -> Vec3<f64> {
+        let Some(limits) = self.actuator else { return wanted_B };
+        let h_B = self.stored_momentum_B();
+        // Seen from a base that turns, what is stored turns the other way: ḣ_B = -τ - w × h_B.
+        let carried = self.state().V_NB_B.angular.cross(h_B).to_array();
+        let stored = h_B.to_array();
+        let mut given = wanted_B.to_array();
+        for axis in 0..3 {
+            let wanted = given[axis];
+            let torque = wanted.clamp(-limits.torque_limit, limits.torque_limit);
+            if torque != wanted {
+                cut.push(Saturation::ActuatorTorque(axis));
+            }
+            // It may reach ± its limit, not pass it: a full actuator gives back what is carried to it,
+            // even if nothing is asked, as far as its torque goes. (To first order in the turn over
+            // the period.)
+            let lowest = (stored[axis] - limits.momentum_limit) / period - carried[axis];
+            let highest = (stored[axis] + limits.momentum_limit) / period - carried[axis];
+            let held = if lowest <= highest { torque.clamp(lowest, highest) } else { torque };
+            given[axis] = held.clamp(-limits.torque_limit, limits.torque_limit);
+            if given[axis] != torque {
+                cut.push(Saturation::ActuatorMomentum(axis));
+            }
+        }
+        Vec3::from_array(given)
+    }
+}
