@@ -94,12 +94,18 @@ pub trait Scalar: Real<Mask = bool> + PartialOrd {
     /// Inverse cosine (rad); the argument must lie in [-1, 1].
     #[must_use]
     fn acos(self) -> Self;
+    /// `e` to this power.
+    #[must_use]
+    fn exp(self) -> Self;
+    /// Natural logarithm; the argument must be positive.
+    #[must_use]
+    fn ln(self) -> Self;
     /// Neither infinite nor NaN.
     fn is_finite(self) -> bool;
 }
 
 macro_rules! float {
-    ($float:ty, $sqrt:path, $sin_cos:path, $atan2:path, $acos:path) => {
+    ($float:ty, $sqrt:path, $sin_cos:path, $atan2:path, $acos:path, $exp:path, $ln:path) => {
         impl Real for $float {
             type Mask = bool;
             #[inline(always)]
@@ -138,14 +144,20 @@ macro_rules! float {
             fn acos(self) -> Self {
                 $acos(self)
             }
+            fn exp(self) -> Self {
+                $exp(self)
+            }
+            fn ln(self) -> Self {
+                $ln(self)
+            }
             fn is_finite(self) -> bool {
                 <$float>::is_finite(self)
             }
         }
     };
 }
-float!(f64, libm::sqrt, libm::sincos, libm::atan2, libm::acos);
-float!(f32, libm::sqrtf, libm::sincosf, libm::atan2f, libm::acosf);
+float!(f64, libm::sqrt, libm::sincos, libm::atan2, libm::acos, libm::exp, libm::log);
+float!(f32, libm::sqrtf, libm::sincosf, libm::atan2f, libm::acosf, libm::expf, libm::logf);
 
 #[cfg(test)]
 mod tests {
@@ -178,6 +190,8 @@ mod tests {
             assert!((s - f64::sin(x)).abs() < 3e-16 && (c - f64::cos(x)).abs() < 3e-16);
             assert!((Scalar::atan2(s, c) - f64::atan2(s, c)).abs() < 1e-15);
             assert!((Scalar::acos(c) - f64::acos(c)).abs() < 1e-15);
+            assert!((Scalar::exp(x) / f64::exp(x) - 1.0).abs() < 1e-15);
+            assert!((Scalar::ln(f64::exp(x)) - x).abs() < 1e-14);
             assert!((Real::sqrt(x * x) - x.abs()).abs() < 1e-14);
         }
     }
