@@ -50,3 +50,24 @@ pub enum NakamuraHanafusa1986 {}
 /// B. Wie, *Space Vehicle Dynamics and Control*, 2nd ed., AIAA, 2008.
 #[derive(Debug)]
 pub enum Wie2008 {}
+/// F. Markley, R. Reynolds, F. Liu, K. Lebsock, *Maximum torque and momentum envelopes for
+/// reaction-wheel arrays*, AIAA Journal of Guidance, Control, and Dynamics 33(5), 2010.
+#[derive(Debug)]
+pub enum Markley2010 {}
+/// N. Bedrossian, J. Paradiso, E. Bergmann, D. Rowell, *Steering law design for redundant
+/// single-gimbal control moment gyroscopes*, AIAA Journal of Guidance, Control, and Dynamics 13(6),
+/// 1990.
+#[derive(Debug)]
+pub enum Bedrossian1990 {}
+/// H.-S. Oh, S. Vadali, *Feedback control and steering laws for spacecraft using single gimbal
+/// control moment gyros*, Journal of the Astronautical Sciences 39(2), 1991.
+#[derive(Debug)]
+pub enum OhVadali1991 {}
+/// S. Vadali, H.-S. Oh, S. Walker, *Preferred gimbal angles for single gimbal control moment gyros*,
+/// AIAA Journal of Guidance, Control, and Dynamics 13(6), 1990.
+#[derive(Debug)]
+pub enum Vadali1990 {}
+/// B. Wie, D. Bailey, C. Heiberg, *Singularity robust steering logic for redundant single-gimbal
+/// control moment gyros*, AIAA Journal of Guidance, Control, and Dynamics 24(5), 2001.
+#[derive(Debug)]
+pub enum WieBaileyHeiberg2001 {}

@@ -1,6 +1,12 @@
 //! Steering: from a wanted torque and force to what each actuator is told, within limits. What could
 //! not be given is reported, not hidden.
 
+mod least_peak;
+mod span;
+mod wheel_allocation;
+
+pub use wheel_allocation::{WheelLaw, WheelSharing, wheel_torques};
+
 use wrasse_spatial::Vec3;
 
 /// What each unit of a group is told, and what is missing.
