@@ -1,0 +1,20 @@
+//! What a set of actuators can hold and give: momentum and torque as solids, singular surfaces,
+//! thrusters.
+
+mod directions;
+mod facets;
+mod leaving;
+mod linear_program;
+#[cfg(test)]
+mod pyramid;
+mod singular_surface;
+mod solid;
+mod steering_reach;
+mod thruster_torque;
+
+pub use facets::{Facet, facets};
+pub use leaving::first_outside;
+pub use singular_surface::{Mesh, singular_surfaces};
+pub use solid::{Piece, Solid};
+pub use steering_reach::{SteeringReach, steering_reach};
+pub use thruster_torque::{ThrusterTorque, least_flow, thruster_torque};

@@ -1,0 +1,9 @@
+//! Sizing: what a task asks of the base, and which actuators can give it.
+#![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
+
+mod envelope;
+
+pub use envelope::{
+    Facet, Mesh, Piece, Solid, SteeringReach, ThrusterTorque, facets, first_outside, least_flow,
+    singular_surfaces, steering_reach, thruster_torque,
+};
