@@ -60,7 +60,11 @@ pub fn wheel_torques<T: Scalar>(
     let evening = evening_shares(wheels, used, law, speeds);
     let [lower, upper] = share_bounds(wheels, speeds);
     let part = share_that_fits(&shares, &evening, &lower, &upper);
-    let values = core::array::from_fn(|k| (shares[k] + evening[k] * part) * wheel(k).torque_limit);
+    let values = core::array::from_fn(|k| {
+        // Round-off must not push a bound.
+        let share = (shares[k] + evening[k] * part).min(upper[k]).max(lower[k]);
+        share * wheel(k).torque_limit
+    });
     let given = core::array::from_fn(|k| wheel(k).axis_B * values[k]);
     Allocation { values, missing_B: wanted_B - sum(&given, &[T::one(); WHEELS]) }
 }
