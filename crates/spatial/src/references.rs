@@ -71,3 +71,11 @@ pub enum Vadali1990 {}
 /// control moment gyros*, AIAA Journal of Guidance, Control, and Dynamics 24(5), 2001.
 #[derive(Debug)]
 pub enum WieBaileyHeiberg2001 {}
+/// R. Bland, *New finite pivoting rules for the simplex method*, Mathematics of Operations Research
+/// 2(2), 1977.
+#[derive(Debug)]
+pub enum Bland1977 {}
+/// F. L. Markley, J. L. Crassidis, *Fundamentals of Spacecraft Attitude Determination and Control*,
+/// Springer, 2014.
+#[derive(Debug)]
+pub enum MarkleyCrassidis2014 {}
