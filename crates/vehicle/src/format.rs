@@ -1,6 +1,8 @@
 //! The TOML format of vehicle files, as plain data. What these comments say is what an editor shows:
 //! the JSON Schema is made from them.
 
+use crate::equipment_format::EquipmentFile;
+use crate::sensor_format::SensorsFile;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -33,8 +35,12 @@ pub(crate) struct VehicleFile {
     /// Named positions of the joints.
     #[serde(default)]
     pub(crate) posture: Vec<PostureFile>,
-    /// What holds and turns the base.
+    /// What holds and turns the base, as an ideal.
     pub(crate) attitude_actuator: Option<ActuatorFile>,
+    /// What holds, turns and moves the base, unit by unit.
+    pub(crate) actuators: Option<EquipmentFile>,
+    /// What attitude and joints are felt with.
+    pub(crate) sensors: Option<SensorsFile>,
 }
 
 /// Where numbers come from.

@@ -8,7 +8,7 @@ use std::ops::Range;
 use wrasse_document::{Step, closest};
 
 /// Keys of a block that hold numbers about the vehicle.
-const NUMBERS: [&str; 18] = [
+const NUMBERS: [&str; 56] = [
     "mass_kg",
     "centre_of_mass_m",
     "inertia_kgm2",
@@ -27,6 +27,44 @@ const NUMBERS: [&str; 18] = [
     "joints_m",
     "torque_limit_nm",
     "momentum_limit_nms",
+    "speed_limit_rpm",
+    "speed_rpm",
+    "momentum_nms",
+    "coulomb_friction_nm",
+    "viscous_friction_nms",
+    "torque_step_nm",
+    "power_w",
+    "gimbal_axis",
+    "spin_axis",
+    "gimbal_angle_deg",
+    "gimbal_angles_deg",
+    "gimbal_rate_limit_deg_s",
+    "gimbal_acceleration_limit_deg_s2",
+    "gimbal_inertia_kgm2",
+    "motor_torque_limit_nm",
+    "servo_bandwidth_rad_s",
+    "skew_deg",
+    "count",
+    "direction",
+    "force_n",
+    "specific_impulse_s",
+    "minimum_on_time_s",
+    "rise_time_s",
+    "fall_time_s",
+    "impulse_noise_percent",
+    "edges_m",
+    "propellant_kg",
+    "bias_deg_h",
+    "angle_random_walk_deg_sqrt_h",
+    "bias_random_walk_deg_h_sqrt_h",
+    "rate_step_deg_s",
+    "boresight",
+    "noise_across_arcsec",
+    "noise_about_arcsec",
+    "rate_hz",
+    "latency_s",
+    "rate_limit_deg_s",
+    "encoder_step_deg",
 ];
 
 /// How many blocks without source a warning names.
@@ -48,6 +86,21 @@ impl Sources {
         let mut sources = Self { covered: whole.is_some(), ..Self::default() };
         sources.rows.extend(whole.map(|source| row("all else", source)));
         sources
+    }
+    /// For the blocks of a table that may have a source for all of them, as `of` in reports; `covered`
+    /// says that the file has one, or that it need not.
+    pub(crate) fn within(of: &str, source: Option<&SourceFile>, covered: bool) -> Self {
+        let mut sources = Self { covered: covered || source.is_some(), ..Self::default() };
+        sources.rows.extend(source.map(|source| row(of, source)));
+        sources
+    }
+    /// Whether the file has a source for all that have none.
+    pub(crate) fn covered(&self) -> bool {
+        self.covered
+    }
+    /// The blocks without source of a table of this file.
+    pub(crate) fn take_without(&mut self, table: &mut Self) {
+        self.without.append(&mut table.without);
     }
     /// A block that is called `of` in reports, its source, and those of its single numbers.
     pub(crate) fn block(
@@ -95,7 +148,7 @@ impl Sources {
     }
 }
 
-fn row(of: &str, source: &SourceFile) -> Provenance {
+pub(crate) fn row(of: &str, source: &SourceFile) -> Provenance {
     let (grade, text) = match source {
         SourceFile::Published(text) => (Grade::Published, text),
         SourceFile::Derived(text) => (Grade::Derived, text),

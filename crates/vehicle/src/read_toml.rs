@@ -3,8 +3,11 @@
 use crate::assemble::{Assembled, assemble};
 use crate::assembly::{AssemblyJoint, Link};
 use crate::denavit_hartenberg::arm;
+use crate::equipment::Equipment;
 use crate::format::{ActuatorFile, PostureFile, ToolFile, VehicleFile};
 use crate::provenance::Sources;
+use crate::read_equipment::equipment;
+use crate::read_sensors::sensors;
 use crate::toml_body::{link, outline};
 use crate::toml_joint::joint;
 use crate::toml_reading::Reading;
@@ -13,7 +16,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use wrasse_document::{Complaint, Document, Source, Step, at, closest};
 use wrasse_dynamics::{Frame, JointKind};
-use wrasse_hardware::{AttitudeActuator, JointLimits};
+use wrasse_hardware::{AttitudeActuator, JointLimits, Sensors};
 use wrasse_spatial::{Pose, vec3};
 
 /// The vehicle of a TOML file.
@@ -43,7 +46,10 @@ fn vehicle_of(
     let attitude_actuator =
         file.attitude_actuator.as_ref().map(|given| actuator(&mut reading, given));
     check_postures(&mut reading, &file.posture, &joints);
-    let provenance = sources(&mut reading, &file);
+    let mut sources = sources(&mut reading, &file);
+    let equipment = equipment_of(&mut reading, &mut sources, &file);
+    let sensors = sensors_of(&mut reading, &mut sources, &file);
+    sources.warn(&mut reading);
     let assembled = match assemble(source, &links, &joints) {
         Ok(assembled) => assembled,
         Err(complaints) => {
@@ -69,8 +75,10 @@ fn vehicle_of(
         tools: file.tool.iter().map(|tool| tool.name.clone()).collect(),
         postures,
         attitude_actuator,
+        equipment,
+        sensors,
         shapes,
-        provenance,
+        provenance: sources.rows,
         remarks: found.into_complaints(),
     })
 }
@@ -231,7 +239,7 @@ fn shapes(outlines: Vec<(String, Pose<f64>, ShapeKind)>, assembled: &Assembled) 
 }
 
 /// Where the numbers of each block come from.
-fn sources(reading: &mut Reading<'_>, file: &VehicleFile) -> Vec<crate::vehicle::Provenance> {
+fn sources(reading: &mut Reading<'_>, file: &VehicleFile) -> Sources {
     let none = BTreeMap::new();
     let mut sources = Sources::new(file.source.as_ref());
     let mut block = |kind: &'static str, i: usize, name: &str, source, source_of| {
@@ -257,8 +265,30 @@ fn sources(reading: &mut Reading<'_>, file: &VehicleFile) -> Vec<crate::vehicle:
         let path = at!["attitude_actuator"];
         sources.block(reading, path, "attitude_actuator", source, source_of);
     }
-    sources.warn(reading);
-    sources.rows
+    sources
+}
+
+/// The equipment, if there is any.
+fn equipment_of(reading: &mut Reading<'_>, sources: &mut Sources, file: &VehicleFile) -> Equipment {
+    let Some(table) = &file.actuators else { return Equipment::default() };
+    let mut of_table = Sources::within("actuators", table.source.as_ref(), sources.covered());
+    let equipment = equipment(reading, &mut of_table, at!["actuators"], table);
+    sources.take_without(&mut of_table);
+    equipment
+}
+
+/// The sensors, if the file says of any.
+fn sensors_of(
+    reading: &mut Reading<'_>,
+    sources: &mut Sources,
+    file: &VehicleFile,
+) -> Sensors<f64> {
+    let Some(table) = &file.sensors else { return Sensors::default() };
+    let mut of_table = Sources::within("sensors", table.source.as_ref(), sources.covered());
+    let (sensors, rows) = sensors(reading, &mut of_table, at!["sensors"], table);
+    sources.take_without(&mut of_table);
+    sources.rows.extend(rows);
+    sensors
 }
 
 /// The JSON Schema of TOML vehicle files, for editors.

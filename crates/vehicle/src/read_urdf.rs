@@ -2,6 +2,7 @@
 
 use crate::assemble::{Assembled, assemble};
 use crate::assembly::{AssemblyJoint, Link};
+use crate::equipment::Equipment;
 use crate::findings::Findings;
 use crate::urdf_element::{Element, Kind, Reading, tag_at};
 use crate::urdf_joint::{Type, UrdfJoint};
@@ -12,6 +13,7 @@ use std::ops::Range;
 use std::sync::Arc;
 use wrasse_document::{Complaint, Source};
 use wrasse_dynamics::Frame;
+use wrasse_hardware::Sensors;
 
 const ROBOT: Kind = Kind {
     tag: "robot",
@@ -85,6 +87,8 @@ fn vehicle(name: String, from: Assembled, outlines: &[Outline], found: Findings)
         tools: Vec::new(),
         postures: Vec::new(),
         attitude_actuator: None,
+        equipment: Equipment::default(),
+        sensors: Sensors::default(),
         provenance: vec![Provenance {
             of: "everything".into(),
             grade: Grade::Assumed,

@@ -28,7 +28,7 @@ pub(crate) fn from_rpy_deg([roll, pitch, yaw]: [f64; 3]) -> Mat3<f64> {
 
 /// Sine and cosine of an angle in degrees. A file that says 90 means a right angle, and its
 /// conversion to radians is not one.
-fn sin_cos(deg: f64) -> (f64, f64) {
+pub(crate) fn sin_cos(deg: f64) -> (f64, f64) {
     let quarters = deg / 90.0;
     if quarters % 1.0 != 0.0 {
         return Real::sin_cos(deg.to_radians());

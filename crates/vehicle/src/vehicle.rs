@@ -1,8 +1,9 @@
 //! A checked vehicle: everything that the rest of the program knows of it.
 
+use crate::equipment::Equipment;
 use wrasse_document::Complaint;
 use wrasse_dynamics::{Frame, Robot};
-use wrasse_hardware::{AttitudeActuator, JointLimits};
+use wrasse_hardware::{AttitudeActuator, JointLimits, Sensors};
 use wrasse_spatial::{Pose, Vec3};
 
 /// Most moving joints a vehicle can have.
@@ -32,9 +33,13 @@ pub struct Vehicle {
     pub postures: Vec<Posture>,
     /// The ideal attitude actuator, if the file has one.
     pub attitude_actuator: Option<AttitudeActuator<f64>>,
+    /// Wheels, gyros and thrusters; none if the file has none.
+    pub equipment: Equipment,
+    /// What attitude and joints are felt with; perfect if the file does not say.
+    pub sensors: Sensors<f64>,
     /// What to draw.
     pub shapes: Vec<Shape>,
-    /// Where its numbers come from, in the order of the file.
+    /// Where its numbers come from, in the order of the file; those of the equipment say it themselves.
     pub provenance: Vec<Provenance>,
     /// Warnings and notes of the reading: implausible values, tags not used.
     pub remarks: Vec<Complaint>,

@@ -1,0 +1,221 @@
+//! The table `[actuators]` to the equipment of a base.
+
+use crate::equipment::Equipment;
+use crate::equipment_format::EquipmentFile;
+use crate::format::SourceFile;
+use crate::hardware_catalogue::ModelsUsed;
+use crate::mounted_unit::Mounted;
+use crate::provenance::Sources;
+use crate::toml_gyro::{gyro, gyro_array};
+use crate::toml_reading::{Reading, under};
+use crate::toml_thruster::{tank, thruster, thruster_set};
+use crate::toml_wheel::wheel;
+use std::collections::BTreeMap;
+use wrasse_document::{Complaint, Document, Step};
+use wrasse_hardware::{
+    Actuators, ControlMomentGyro, GYROS, List, ReactionWheel, THRUSTERS, Thruster, WHEELS,
+};
+
+/// The equipment of a table `[actuators]` that stands at `path` in a document, and all complaints about
+/// it.
+pub fn read_equipment(
+    document: &Document,
+    path: &[Step<'_>],
+    file: &EquipmentFile,
+) -> (Equipment, Vec<Complaint>) {
+    let mut reading = Reading::new(document);
+    let mut sources = Sources::within("actuators", file.source.as_ref(), true);
+    let equipment = equipment(&mut reading, &mut sources, path, file);
+    (equipment, reading.found.into_complaints())
+}
+
+/// All units of a table, and whether each of it could be read.
+struct Units {
+    wheels: Vec<Mounted<ReactionWheel<f64>>>,
+    gyros: Vec<Mounted<ControlMomentGyro<f64>>>,
+    thrusters: Vec<Mounted<Thruster<f64>>>,
+}
+
+/// The equipment of a table; its blocks without source are left with `sources`.
+pub(crate) fn equipment(
+    reading: &mut Reading<'_>,
+    sources: &mut Sources,
+    path: &[Step<'_>],
+    file: &EquipmentFile,
+) -> Equipment {
+    let mut models = ModelsUsed::default();
+    let units = units(reading, &mut models, path, file);
+    check_counts(reading, &units);
+    check_names(reading, &units);
+    let tank = file.tank.as_ref().map(|given| tank(reading, &under(path, "tank"), given));
+    blocks(reading, sources, path, file);
+    let mut provenance = std::mem::take(&mut sources.rows);
+    provenance.append(&mut models.rows);
+    let Units { wheels, gyros, thrusters } = &units;
+    Equipment {
+        name: file.name.clone().unwrap_or_else(|| units.name()),
+        actuators: Actuators {
+            wheels: List::new(&bare(wheels)),
+            gyros: List::new(&bare(gyros)),
+            thrusters: List::new(&bare(thrusters)),
+            tank,
+        },
+        wheel_names: names(wheels, WHEELS),
+        gyro_names: names(gyros, GYROS),
+        thruster_names: names(thrusters, THRUSTERS),
+        wheel_speed: starts(wheels),
+        gimbal_angle: starts(gyros),
+        mass: units.sum(|unit| unit.0),
+        power: units.sum(|unit| unit.1),
+        provenance,
+    }
+}
+
+/// The units of each kind, in the order of the file, single ones before sets.
+fn units(
+    reading: &mut Reading<'_>,
+    models: &mut ModelsUsed,
+    path: &[Step<'_>],
+    file: &EquipmentFile,
+) -> Units {
+    let mut all = Units { wheels: vec![], gyros: vec![], thrusters: vec![] };
+    for (i, given) in file.wheel.iter().enumerate() {
+        all.wheels.extend(wheel(reading, models, &item(path, "wheel", i), given));
+    }
+    for (i, given) in file.gyro.iter().enumerate() {
+        all.gyros.extend(gyro(reading, models, &item(path, "gyro", i), given));
+    }
+    for (i, given) in file.gyro_array.iter().enumerate() {
+        let array = gyro_array(reading, models, &item(path, "gyro_array", i), given);
+        all.gyros.extend(array.into_iter().flatten());
+    }
+    for (i, given) in file.thruster.iter().enumerate() {
+        all.thrusters.extend(thruster(reading, models, &item(path, "thruster", i), given));
+    }
+    for (i, given) in file.thruster_set.iter().enumerate() {
+        let set = thruster_set(reading, models, &item(path, "thruster_set", i), given);
+        all.thrusters.extend(set.into_iter().flatten());
+    }
+    all
+}
+
+/// The path of an item of a list.
+fn item<'p>(path: &[Step<'p>], key: &'p str, i: usize) -> Vec<Step<'p>> {
+    [path, &[Step::Key(key), Step::Index(i)]].concat()
+}
+
+fn bare<U: Copy>(units: &[Mounted<U>]) -> Vec<U> {
+    units.iter().map(|mounted| mounted.unit).collect()
+}
+
+fn names<U>(units: &[Mounted<U>], most: usize) -> Vec<String> {
+    units.iter().take(most).map(|mounted| mounted.name.clone()).collect()
+}
+
+fn starts<U, const N: usize>(units: &[Mounted<U>]) -> [f64; N] {
+    let mut starts = [0.0; N];
+    starts.iter_mut().zip(units).for_each(|(start, mounted)| *start = mounted.start);
+    starts
+}
+
+/// What tables and checks want to know of any unit.
+type MassAndPower = (Option<f64>, Option<f64>);
+
+impl Units {
+    fn each<'u, R>(
+        &'u self,
+        of_wheel: impl Fn(&'u Mounted<ReactionWheel<f64>>) -> R,
+        of_gyro: impl Fn(&'u Mounted<ControlMomentGyro<f64>>) -> R,
+        of_thruster: impl Fn(&'u Mounted<Thruster<f64>>) -> R,
+    ) -> Vec<R> {
+        let mut all: Vec<R> = self.wheels.iter().map(of_wheel).collect();
+        all.extend(self.gyros.iter().map(of_gyro));
+        all.extend(self.thrusters.iter().map(of_thruster));
+        all
+    }
+    /// A number of all units together; `None` if there are none or one does not say it.
+    fn sum(&self, of: impl Fn(MassAndPower) -> Option<f64>) -> Option<f64> {
+        let each = self.each(|u| (u.mass, u.power), |u| (u.mass, u.power), |u| (u.mass, u.power));
+        let numbers: Option<Vec<f64>> = each.into_iter().map(of).collect();
+        numbers.filter(|numbers| !numbers.is_empty()).map(|numbers| numbers.iter().sum())
+    }
+    /// How many of what: `4 x airbus-cmg-75-75s, 12 x moog-monarc-22-6`.
+    fn name(&self) -> String {
+        let mut counts: Vec<(&str, usize)> = vec![];
+        for label in self.each(|u| u.label.as_str(), |u| u.label.as_str(), |u| u.label.as_str()) {
+            match counts.iter_mut().find(|(known, _)| *known == label) {
+                Some((_, count)) => *count += 1,
+                None => counts.push((label, 1)),
+            }
+        }
+        let told: Vec<_> = counts.iter().map(|(label, n)| format!("{n} x {label}")).collect();
+        if told.is_empty() { "none".into() } else { told.join(", ") }
+    }
+}
+
+/// Complains of units that there is no room for.
+fn check_counts(reading: &mut Reading<'_>, units: &Units) {
+    let counts = [
+        ("wheels", units.wheels.len(), units.wheels.get(WHEELS).map(|u| &u.at), WHEELS),
+        ("gyros", units.gyros.len(), units.gyros.get(GYROS).map(|u| &u.at), GYROS),
+        (
+            "thrusters",
+            units.thrusters.len(),
+            units.thrusters.get(THRUSTERS).map(|u| &u.at),
+            THRUSTERS,
+        ),
+    ];
+    for (what, count, first_too_many, most) in counts {
+        if let Some(at) = first_too_many {
+            let message = format!("{count} {what}: a vehicle has at most {most}");
+            reading.found.error(at, message, "too many", "leave some out, or take stronger ones");
+        }
+    }
+}
+
+/// Complains of units of one name: commands and failures name them.
+fn check_names(reading: &mut Reading<'_>, units: &Units) {
+    let named = units.each(|u| (&u.name, &u.at), |u| (&u.name, &u.at), |u| (&u.name, &u.at));
+    let mut first = BTreeMap::new();
+    let mut told = Vec::new();
+    for (name, at) in named {
+        let Some(other) = first.insert(name, at) else { continue };
+        // Two arrays of one name are one mistake.
+        if told.contains(&at) {
+            continue;
+        }
+        told.push(at);
+        let line = reading.found.line(other.start);
+        let message = format!("two units are called '{name}'; the other is on line {line}");
+        reading.found.error(at, message, "the second", "give one of them another name");
+    }
+}
+
+/// Where the numbers of each block come from.
+fn blocks(
+    reading: &mut Reading<'_>,
+    sources: &mut Sources,
+    path: &[Step<'_>],
+    file: &EquipmentFile,
+) {
+    let mut block = |path: &[Step<'_>], of: String, source: Option<&SourceFile>, source_of| {
+        sources.block(reading, path, &format!("actuators.{of}"), source, source_of);
+    };
+    macro_rules! blocks_of {
+        ($list:ident) => {
+            for (i, unit) in file.$list.iter().enumerate() {
+                let kind = stringify!($list);
+                let of = format!("{kind}.{}", unit.name);
+                block(&item(path, kind, i), of, unit.source.as_ref(), &unit.source_of);
+            }
+        };
+    }
+    blocks_of!(wheel);
+    blocks_of!(gyro);
+    blocks_of!(gyro_array);
+    blocks_of!(thruster);
+    blocks_of!(thruster_set);
+    if let Some(tank) = &file.tank {
+        block(&under(path, "tank"), "tank".into(), tank.source.as_ref(), &tank.source_of);
+    }
+}
