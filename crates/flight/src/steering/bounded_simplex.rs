@@ -2,7 +2,8 @@
 
 use wrasse_spatial::Scalar;
 
-/// Most exchanges of all goals together: a random set of 24 thrusters has needed 71.
+/// Most exchanges of all goals together. Of 2000 random sets of 24 thrusters none needed more than 47
+/// of the first half, and by the second half's rule alone none more than 160.
 const EXCHANGES: usize = 400;
 
 /// Variables between zero and an upper bound, tied by equations whose right side is zero.
@@ -59,34 +60,60 @@ impl<T: Scalar, const R: usize, const C: usize> BoundedSimplex<T, R, C> {
     pub(super) fn value(&self, j: usize) -> T {
         self.value[j]
     }
-    /// Widen a variable that has been held at zero so far.
+    /// Give a variable that stands at zero more room.
     pub(super) fn widen(&mut self, j: usize, upper: T) {
         self.upper[j] = upper.max(T::zero());
-        if self.place[j] == Place::Locked && self.value[j] == T::zero() {
-            self.place[j] = Place::Zero;
-        }
     }
-    /// Least cost among all solutions that no earlier goal forbids, and from then on no other
-    /// solutions. Says whether it got there within the exchanges that are left.
+    /// Least cost among all solutions. Says whether it got there within the exchanges that are left;
+    /// if not, what there is is a solution all the same.
     ///
     /// # Source
-    /// [`Bland1977`](wrasse_spatial::references::Bland1977): the rule of least index, which cannot
-    /// cycle.
+    /// The largest reduced cost goes first; after half of the exchanges the least index, the rule of
+    /// [`Bland1977`](wrasse_spatial::references::Bland1977), which cannot cycle.
     pub(super) fn minimise(&mut self, cost: &[T; C]) -> bool {
-        while let Some(entering) = (0..C).find(|&j| self.pays(j, self.reduced(cost, j))) {
+        while let Some(entering) = self.entering(cost) {
             if self.left == 0 {
                 return false;
             }
             self.left -= 1;
             self.enter(entering);
         }
-        // Whatever leaves the least cost, the variables outside the basis that cost must stay.
+        true
+    }
+    /// From now on only solutions of the least cost that has been reached: whatever is outside the
+    /// basis and would cost more must stay.
+    pub(super) fn lock(&mut self, cost: &[T; C]) {
         for j in 0..C {
             if self.place[j] != Place::Basis && self.reduced(cost, j).abs() > nothing() {
                 self.place[j] = Place::Locked;
             }
         }
-        true
+    }
+    /// A variable keeps its value from now on: it leaves the basis for one that may still move.
+    pub(super) fn freeze(&mut self, j: usize) {
+        if let Some(r) = (0..R).find(|&r| self.basis[r] == j) {
+            let size = |c: usize| self.rows[r][c].abs();
+            let free = (0..C).filter(|&c| !matches!(self.place[c], Place::Basis | Place::Locked));
+            let other = free.reduce(|best, c| if size(c) > size(best) { c } else { best });
+            match other.filter(|&c| size(c) > nothing()) {
+                Some(c) => self.exchange(r, c),
+                // Nothing that moves reaches it.
+                None => return,
+            }
+        }
+        self.place[j] = Place::Locked;
+    }
+    /// The variable that is to move next, if moving any lowers the cost.
+    fn entering(&self, cost: &[T; C]) -> Option<usize> {
+        let reduced: [T; C] = core::array::from_fn(|j| self.reduced(cost, j));
+        let mut paying = (0..C).filter(|&j| self.pays(j, reduced[j]));
+        let least_index = self.left < EXCHANGES / 2;
+        let first = paying.next()?;
+        if least_index {
+            return Some(first);
+        }
+        let larger = |a: usize, b: usize| if reduced[b].abs() > reduced[a].abs() { b } else { a };
+        Some(paying.fold(first, larger))
     }
     /// Cost per unit of a variable, what it does to the basis included.
     fn reduced(&self, cost: &[T; C], j: usize) -> T {
@@ -159,9 +186,15 @@ impl<T: Scalar, const R: usize, const C: usize> BoundedSimplex<T, R, C> {
         self.basis[row] = j;
         self.place[j] = Place::Basis;
     }
+    /// As after half of the exchanges.
+    #[cfg(test)]
+    pub(super) fn halfway(mut self) -> Self {
+        self.left = EXCHANGES / 2 - 1;
+        self
+    }
     /// Exchanges made so far.
     #[cfg(test)]
-    fn exchanges(&self) -> usize {
+    pub(super) fn exchanges(&self) -> usize {
         EXCHANGES - self.left
     }
 }

@@ -1,10 +1,13 @@
 //! Steering: from a wanted torque and force to what each actuator is told, within limits. What could
 //! not be given is reported, not hidden.
 
+mod bounded_simplex;
 mod least_peak;
 mod span;
+mod thruster_selection;
 mod wheel_allocation;
 
+pub use thruster_selection::{Selection, WrenchAxes, controllable_axes, thruster_duties};
 pub use wheel_allocation::{WheelLaw, WheelSharing, wheel_torques};
 
 use wrasse_spatial::Vec3;
