@@ -23,23 +23,11 @@ pub enum Saturation {
     /// The motor of this gimbal: it cannot turn the gimbal as it should beside what the turning base
     /// asks of it.
     GimbalMotor(usize),
-    /// This thruster was told to open for less than it can, and stayed shut.
+    /// This thruster was told to open for less than it can: it stayed shut, or, open already, stays
+    /// so for its shortest time.
     PulseTooShort(usize),
     /// Thrusters were told to open, and there is nothing to feed them.
     TankEmpty,
-}
-
-/// Something that breaks, from now on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Failure {
-    /// The motor of this wheel gives nothing; the friction of its bearing stays.
-    Wheel(usize),
-    /// This gimbal is stuck.
-    Gimbal(usize),
-    /// This thruster stays shut.
-    ThrusterShut(usize),
-    /// This thruster stays open.
-    ThrusterOpen(usize),
 }
 
 impl<const J: usize> World<J> {
@@ -52,6 +40,7 @@ impl<const J: usize> World<J> {
         actuators: &ActuatorCommand<f64>,
         period: f64,
     ) -> Vec<Saturation> {
+        let gone = self.into_period;
         (self.period_start, self.into_period) = (self.time, 0.0);
         let mut cut = Vec::new();
         for (j, drive) in drives.iter().enumerate().take(J) {
@@ -67,8 +56,27 @@ impl<const J: usize> World<J> {
         if self.base == BaseAttitude::Controlled {
             self.actuator_torque_B = self.within_actuator_limits(torque_B, period, &mut cut);
         }
-        self.told = *actuators;
+        self.command_equipment(actuators, (gone, period), &mut cut);
         cut
+    }
+
+    /// Set wheels, gyros and thrusters for a period (s), `gone` (s) after the last began.
+    fn command_equipment(
+        &mut self,
+        told: &ActuatorCommand<f64>,
+        (gone, period): (f64, f64),
+        cut: &mut Vec<Saturation>,
+    ) {
+        if !(self.wheels.is_empty() && self.gyros.is_empty()) {
+            let w_NB_B = self.state().V_NB_B.angular;
+            let s = &self.system;
+            let speed = self.wheels.speeds(&s.wheel_momentum, w_NB_B);
+            self.wheels.command(&told.wheel_torque, &speed, period, cut);
+            let (angle, rate) = (&s.gimbal_angle, &s.gimbal_rate);
+            self.gyros.command(&told.gimbal_rate, angle, rate, w_NB_B, cut);
+        }
+        let is_fed = self.tank.is_none_or(|tank| tank.mass > 0.0);
+        self.thrusters.command(&told.thruster_on, (gone, period), is_fed, cut);
     }
 
     /// The torque that the ideal actuator gives: within its torque, and within what it can store.

@@ -1,6 +1,7 @@
 //! What moves in one step: the displacement of the whole state.
 
 use crate::stepper::Displacement;
+use wrasse_hardware::{GYROS, WHEELS};
 use wrasse_spatial::Vec3;
 
 /// Displacement of the system's state over part of a step, or its rate.
@@ -16,14 +17,26 @@ pub struct Flow<const J: usize> {
     pub p_NScm_N: Vec3<f64>,
     /// Linear momentum, inertial axes (N·s).
     pub linear: Vec3<f64>,
-    /// Angular momentum of the bodies about their centre of mass, inertial axes (N·m·s).
+    /// Angular momentum of bodies, wheels and gyros about their centre of mass, inertial axes
+    /// (N·m·s).
     pub angular: Vec3<f64>,
+    /// Momentum of each wheel about its own axis, as seen from inertial space (N·m·s).
+    pub wheel_momentum: [f64; WHEELS],
+    /// Angle of each gimbal (rad).
+    pub gimbal_angle: [f64; GYROS],
+    /// Rate of each gimbal (rad/s).
+    pub gimbal_rate: [f64; GYROS],
     /// Angular impulse of the attitude actuator on the bodies, inertial axes (N·m·s).
     pub from_actuator: Vec3<f64>,
     /// Angular impulse from outside about the common centre of mass of the vehicle and the free
     /// bodies, inertial axes (N·m·s).
     pub from_outside: Vec3<f64>,
-    /// Work of the joint drives, of the attitude actuator, and from outside (J).
+    /// Angular impulse of the thrusters, about the same point (N·m·s).
+    pub from_thrusters: Vec3<f64>,
+    /// Impulse of the thrusters, inertial axes (N·s).
+    pub push: Vec3<f64>,
+    /// Work on the bodies: of the joint drives, of whatever turns and pushes the base, and from
+    /// outside (J).
     pub work: Vec3<f64>,
 }
 
@@ -41,8 +54,15 @@ impl<const J: usize> Flow<J> {
             p_NScm_N: v(self.p_NScm_N, other.p_NScm_N),
             linear: v(self.linear, other.linear),
             angular: v(self.angular, other.angular),
+            wheel_momentum: core::array::from_fn(|i| {
+                f(self.wheel_momentum[i], other.wheel_momentum[i])
+            }),
+            gimbal_angle: core::array::from_fn(|i| f(self.gimbal_angle[i], other.gimbal_angle[i])),
+            gimbal_rate: core::array::from_fn(|i| f(self.gimbal_rate[i], other.gimbal_rate[i])),
             from_actuator: v(self.from_actuator, other.from_actuator),
             from_outside: v(self.from_outside, other.from_outside),
+            from_thrusters: v(self.from_thrusters, other.from_thrusters),
+            push: v(self.push, other.push),
             work: v(self.work, other.work),
         }
     }
@@ -59,8 +79,13 @@ impl<const J: usize> Displacement for Flow<J> {
             p_NScm_N: o,
             linear: o,
             angular: o,
+            wheel_momentum: [0.0; WHEELS],
+            gimbal_angle: [0.0; GYROS],
+            gimbal_rate: [0.0; GYROS],
             from_actuator: o,
             from_outside: o,
+            from_thrusters: o,
+            push: o,
             work: o,
         }
     }
@@ -78,10 +103,13 @@ impl<const J: usize> Displacement for Flow<J> {
             self.angular,
             self.from_actuator,
             self.from_outside,
+            self.from_thrusters,
+            self.push,
             self.work,
         ];
         let vectors = vectors.into_iter().flat_map(Vec3::to_array);
-        let all = vectors.chain(self.q).chain(self.v);
+        let gimbals = self.gimbal_angle.into_iter().chain(self.gimbal_rate);
+        let all = vectors.chain(self.q).chain(self.v).chain(self.wheel_momentum).chain(gimbals);
         all.fold(0.0, |m: f64, x| m.max(x.abs())) / tolerance
     }
 }

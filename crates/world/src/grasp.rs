@@ -145,11 +145,14 @@ impl<const J: usize> World<J> {
         self.free.len() - 1
     }
 
-    /// The robot from what is in its grips.
+    /// The robot with its propellant and with what is in its grips.
+    pub(crate) fn laden(&self) -> Robot<f64, J> {
+        let fed = self.tank.map_or(self.empty, |tank| tank.added_to(&self.empty));
+        self.held.iter().fold(fed, |robot, (frame, p)| robot.with_payload(frame, p))
+    }
+
     fn rebuild(&mut self, mass: f64) {
-        let holding =
-            |robot: Robot<f64, J>, (frame, p): &(Frame<f64>, _)| robot.with_payload(frame, p);
-        self.robot = self.held.iter().fold(self.empty, holding);
+        self.robot = self.laden();
         self.mass = mass;
     }
 }

@@ -2,8 +2,9 @@
 //! those who act. It reads poses and twists, never the momentum that the integrator carries; what a
 //! twist is worth is for the energy to say, for twists follow from that momentum.
 
+use crate::propellant::Carried;
 use crate::world::World;
-use wrasse_dynamics::{kinematics, kinetic_energy};
+use wrasse_dynamics::{State, kinematics, kinetic_energy};
 use wrasse_spatial::Vec3;
 
 /// Momentum and energy at one instant, from poses and twists alone.
@@ -13,12 +14,17 @@ pub struct Account {
     pub linear: Vec3<f64>,
     /// Angular momentum of everything about the common centre of mass (N·m·s).
     pub angular: Vec3<f64>,
-    /// Kinetic energy of everything (J).
+    /// Kinetic energy of everything (J), but for the spin of wheels and rotors: what their motors
+    /// spend on that is not on the bodies.
     pub energy: f64,
     /// Sum of the bodies' absolute linear momenta (N·s): the scale of the linear rest.
     pub linear_scale: f64,
     /// Sum of the bodies' absolute angular momenta about the centre of mass (N·m·s).
     pub angular_scale: f64,
+    /// Of the angular momentum: what the wheels have beside the base, inertial axes (N·m·s).
+    pub in_wheels: Vec3<f64>,
+    /// Of the angular momentum: what the gyros have beside the base, inertial axes (N·m·s).
+    pub in_gyros: Vec3<f64>,
     /// Common centre of mass (m).
     pub centre_of_mass: Vec3<f64>,
 }
@@ -36,7 +42,14 @@ pub struct Ledger {
     pub angular_from_outside: Vec3<f64>,
     /// Impulse from outside (N·s).
     pub linear_from_outside: Vec3<f64>,
-    /// Work of the joint drives, of the attitude actuator, from outside (J).
+    /// Angular impulse of the thrusters about the common centre of mass (N·m·s).
+    pub angular_from_thrusters: Vec3<f64>,
+    /// Impulse of the thrusters (N·s).
+    pub linear_from_thrusters: Vec3<f64>,
+    /// What the propellant took with it as it left the tank.
+    pub propellant: Carried,
+    /// Work on the bodies: of the joint drives, of whatever turns and pushes the base, from outside
+    /// (J).
     pub work: Vec3<f64>,
     /// Energy change at grasps and releases (J).
     pub energy_at_grasps: f64,
@@ -87,7 +100,22 @@ impl<const J: usize> World<J> {
             account.linear_scale += linear.norm();
             account.angular_scale += angular.norm();
         }
+        self.add_wheels_and_gyros(&state, &mut account);
         account
+    }
+    /// Each wheel from its speed and the base's, each gyro from its gimbal.
+    fn add_wheels_and_gyros(&self, state: &State<f64, J>, account: &mut Account) {
+        let (w_NB_B, R_NB, s) = (state.V_NB_B.angular, state.X_NB.rotation, &self.system);
+        let speed = self.wheels.speeds(&s.wheel_momentum, w_NB_B);
+        for h_B in self.wheels.apart_B(self.wheels.momenta(&speed, w_NB_B)) {
+            account.in_wheels += R_NB * h_B;
+            account.angular_scale += h_B.norm();
+        }
+        for h_B in self.gyros.apart_B(s.gimbal_angle, s.gimbal_rate) {
+            account.in_gyros += R_NB * h_B;
+            account.angular_scale += h_B.norm();
+        }
+        account.angular += account.in_wheels + account.in_gyros;
     }
     /// Open the books.
     pub fn open_ledger(&self) -> Ledger {
@@ -104,7 +132,10 @@ impl<const J: usize> World<J> {
         ledger.now = self.account();
         ledger.angular_from_actuator = self.booked.from_actuator;
         ledger.angular_from_outside = self.booked.from_outside;
-        ledger.linear_from_outside = self.booked.linear;
+        ledger.linear_from_outside = self.booked.linear - self.booked.push;
+        ledger.angular_from_thrusters = self.booked.from_thrusters;
+        ledger.linear_from_thrusters = self.booked.push;
+        ledger.propellant = self.carried;
         ledger.work = self.booked.work;
         ledger.energy_at_grasps = self.energy_at_grasps;
         let rests = ledger.rests();
@@ -126,13 +157,20 @@ impl Ledger {
         let angular = self.now.angular
             - self.start.angular
             - self.angular_from_actuator
-            - self.angular_from_outside;
-        let linear = self.now.linear - self.start.linear - self.linear_from_outside;
+            - self.angular_from_outside
+            - self.angular_from_thrusters
+            + self.propellant.angular;
+        let linear = self.now.linear
+            - self.start.linear
+            - self.linear_from_outside
+            - self.linear_from_thrusters
+            + self.propellant.linear;
         let [joints, actuator, outside] = self.work.to_array();
         let energy = self.now.energy
             - self.start.energy
             - (joints + actuator + outside)
-            - self.energy_at_grasps;
+            - self.energy_at_grasps
+            + self.propellant.energy;
         [angular.norm(), linear.norm(), energy.abs()]
     }
 }

@@ -5,25 +5,34 @@
 //! at any step size. The ledger never reads that state: it sums the bodies one by one.
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
+mod advance;
 mod command;
+mod failure;
 mod flow;
 mod free_body;
 mod grasp;
+mod gyros;
 mod ledger;
 mod noise;
+mod propellant;
 mod rates;
 mod sensors;
 mod setup;
 mod stepper;
+mod thrusters;
+mod wheels;
 mod world;
 
-pub use command::{Failure, Saturation};
+pub use advance::NonFinite;
+pub use command::Saturation;
+pub use failure::Failure;
 pub use flow::Flow;
 pub use free_body::FreeBody;
 pub use grasp::GraspRefused;
 pub use ledger::{Account, Ledger};
 pub use noise::Noise;
+pub use propellant::Carried;
 pub use sensors::{SensorReadings, SensorSuite};
 pub use setup::{BaseAttitude, Drive, Equipment, OutsideWrench, WorldSetup};
 pub use stepper::{Displacement, Stepper, dormand_prince, runge_kutta_4};
-pub use world::{NonFinite, SystemState, World};
+pub use world::{SystemState, World};

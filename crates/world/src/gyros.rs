@@ -1,0 +1,132 @@
+//! Single-gimbal control moment gyros as they behave.
+//!
+//! Rotor and gimbal are part of the base's matter, in the base's inertia; what is counted here is
+//! what they have beside it: the rotor's momentum along its spin axis, and that of the turning gimbal
+//! along the gimbal axis. Rotor and gimbal count as round about the gimbal axis, so that turning the
+//! gimbal does not change the inertia of the base.
+
+use crate::command::Saturation;
+use wrasse_hardware::{ControlMomentGyro, GYROS, List};
+use wrasse_spatial::Vec3;
+
+/// The gyros of the base.
+#[derive(Debug, Clone)]
+pub(crate) struct Gyros {
+    list: List<ControlMomentGyro<f64>, GYROS>,
+    /// Rate that each gimbal should have in this period (rad/s).
+    wanted: [f64; GYROS],
+    stuck: [bool; GYROS],
+}
+
+impl Gyros {
+    pub(crate) fn new(list: &List<ControlMomentGyro<f64>, GYROS>) -> Self {
+        Self { list: *list, wanted: [0.0; GYROS], stuck: [false; GYROS] }
+    }
+    pub(crate) fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+    /// Momentum of each gyro beside the base's, base axes (N·m·s): `h s(δ) + I δ̇ g`.
+    pub(crate) fn apart_B(
+        &self,
+        angle: [f64; GYROS],
+        rate: [f64; GYROS],
+    ) -> impl Iterator<Item = Vec3<f64>> {
+        self.list.iter().zip(angle).zip(rate).map(|((gyro, angle), rate)| {
+            gyro.spin_axis(angle) * gyro.momentum
+                + gyro.gimbal_axis_B * (gyro.gimbal_inertia * rate)
+        })
+    }
+    /// Momentum of all together, base axes (N·m·s).
+    pub(crate) fn together_B(&self, angle: [f64; GYROS], rate: [f64; GYROS]) -> Vec3<f64> {
+        self.apart_B(angle, rate).fold(Vec3::zero(), |sum, h| sum + h)
+    }
+    /// How fast that changes as seen from the base (N·m).
+    pub(crate) fn change_B(
+        &self,
+        angle: [f64; GYROS],
+        rate: [f64; GYROS],
+        acceleration: &[f64; GYROS],
+    ) -> Vec3<f64> {
+        let mut change = Vec3::zero();
+        for (i, gyro) in self.list.iter().enumerate() {
+            change += gyro.torque_axis(angle[i]) * (gyro.momentum * rate[i])
+                + gyro.gimbal_axis_B * (gyro.gimbal_inertia * acceleration[i]);
+        }
+        change
+    }
+    /// Acceleration of each gimbal against the base (rad/s²): what its servo wants, as far as its
+    /// motor can. The base's own angular acceleration is left out of what the motor can: it is a
+    /// thousandth of the gimbal's.
+    pub(crate) fn accelerations(
+        &self,
+        angle: &[f64; GYROS],
+        rate: &[f64; GYROS],
+        w_NB_B: Vec3<f64>,
+    ) -> [f64; GYROS] {
+        self.each(|i, gyro| {
+            let load = load(gyro, angle[i], w_NB_B);
+            let lowest = (-gyro.motor_limit - load) / gyro.gimbal_inertia;
+            let highest = (gyro.motor_limit - load) / gyro.gimbal_inertia;
+            self.servo(i, gyro, rate[i]).max(lowest).min(highest)
+        })
+    }
+    /// Torque of each gimbal's motor (N·m): `I (δ̈ + g·ẇ) + g·(w × h s)`. None where it is stuck.
+    pub(crate) fn motor_torques(
+        &self,
+        angle: &[f64; GYROS],
+        acceleration: &[f64; GYROS],
+        w_NB_B: Vec3<f64>,
+        wdot_NB_B: Vec3<f64>,
+    ) -> [f64; GYROS] {
+        self.each(|i, gyro| {
+            let turned = acceleration[i] + gyro.gimbal_axis_B.dot(wdot_NB_B);
+            gyro.gimbal_inertia * turned + load(gyro, angle[i], w_NB_B)
+        })
+    }
+    /// Set the rates for a period, each within its limit; say whose motor cannot follow.
+    pub(crate) fn command(
+        &mut self,
+        wanted: &[f64; GYROS],
+        angle: &[f64; GYROS],
+        rate: &[f64; GYROS],
+        w_NB_B: Vec3<f64>,
+        cut: &mut Vec<Saturation>,
+    ) {
+        for (i, gyro) in self.list.iter().enumerate() {
+            self.wanted[i] = wanted[i].max(-gyro.rate_limit).min(gyro.rate_limit);
+            if self.wanted[i] != wanted[i] && !self.stuck[i] {
+                cut.push(Saturation::GimbalRate(i));
+            }
+        }
+        let found = self.accelerations(angle, rate, w_NB_B);
+        let servo = self.each(|i, gyro| self.servo(i, gyro, rate[i]));
+        let behind = (0..self.list.len()).filter(|&i| found[i] != servo[i]);
+        cut.extend(behind.map(Saturation::GimbalMotor));
+    }
+    /// A gimbal stands still from now on; the angular impulse that its jam gives the base at the rate
+    /// that it had, base axes (N·m·s).
+    pub(crate) fn jam(&mut self, i: usize, rate: &mut [f64; GYROS]) -> Vec3<f64> {
+        let Some(gyro) = self.list.get(i) else { return Vec3::zero() };
+        let had = core::mem::take(&mut rate[i]);
+        self.stuck[i] = true;
+        gyro.gimbal_axis_B * (gyro.gimbal_inertia * had)
+    }
+    /// What the servo asks of a gimbal (rad/s²).
+    fn servo(&self, i: usize, gyro: &ControlMomentGyro<f64>, rate: f64) -> f64 {
+        let wanted = gyro.servo_bandwidth * (self.wanted[i] - rate);
+        wanted.max(-gyro.acceleration_limit).min(gyro.acceleration_limit)
+    }
+    /// Something of each gimbal that is not stuck.
+    fn each(&self, f: impl Fn(usize, &ControlMomentGyro<f64>) -> f64) -> [f64; GYROS] {
+        let mut all = [0.0; GYROS];
+        for (i, gyro) in self.list.iter().enumerate().filter(|(i, _)| !self.stuck[*i]) {
+            all[i] = f(i, gyro);
+        }
+        all
+    }
+}
+
+/// Torque (N·m) by which the motor carries the rotor along with a base that turns: `g·(w × h s)`.
+fn load(gyro: &ControlMomentGyro<f64>, angle: f64, w_NB_B: Vec3<f64>) -> f64 {
+    gyro.gimbal_axis_B.dot(w_NB_B.cross(gyro.spin_axis(angle))) * gyro.momentum
+}
