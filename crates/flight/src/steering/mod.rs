@@ -2,11 +2,18 @@
 //! not be given is reported, not hidden.
 
 mod bounded_simplex;
+mod gyro_null_motion;
+mod gyro_steering;
 mod least_peak;
+mod preferred_angles;
+mod pulse_modulation;
 mod span;
 mod thruster_selection;
 mod wheel_allocation;
 
+pub use gyro_steering::{Damping, GyroLaw, GyroSharing, Waves, gyro_rates, gyro_singularity};
+pub use preferred_angles::preferred_angles;
+pub use pulse_modulation::{Modulation, Modulator};
 pub use thruster_selection::{Selection, WrenchAxes, controllable_axes, thruster_duties};
 pub use wheel_allocation::{WheelLaw, WheelSharing, wheel_torques};
 

@@ -2,5 +2,6 @@
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 #![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
 
+mod gyros;
 mod thrusters;
 mod wheels;
