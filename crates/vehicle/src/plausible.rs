@@ -10,7 +10,7 @@ use wrasse_dynamics::{BodyId, JointKind};
 /// 7 m.
 const LINK_SIZE: f64 = 10.0;
 /// The same for the base (m): the International Space Station is 109 m wide.
-const BASE_SIZE: f64 = 55.0;
+pub(crate) const BASE_SIZE: f64 = 55.0;
 /// Smallest radius of gyration that is believed (m).
 const SMALLEST_GYRATION: f64 = 1e-3;
 /// Density of osmium, the densest of the metals (kg/m³).

@@ -6,18 +6,20 @@ use crate::format::SourceFile;
 use crate::hardware_catalogue::ModelsUsed;
 use crate::mounted_unit::Mounted;
 use crate::provenance::Sources;
+use crate::spanning::check_spanning;
 use crate::toml_gyro::{gyro, gyro_array};
 use crate::toml_reading::{Reading, under};
 use crate::toml_thruster::{tank, thruster, thruster_set};
 use crate::toml_wheel::wheel;
 use std::collections::BTreeMap;
+use std::ops::Range;
 use wrasse_document::{Complaint, Document, Step};
 use wrasse_hardware::{
     Actuators, ControlMomentGyro, GYROS, List, ReactionWheel, THRUSTERS, Thruster, WHEELS,
 };
 
 /// The equipment of a table `[actuators]` that stands at `path` in a document, and all complaints about
-/// it.
+/// it. Whether it suits a vehicle is for [`crate::check_equipment`] to say.
 pub fn read_equipment(
     document: &Document,
     path: &[Step<'_>],
@@ -29,8 +31,11 @@ pub fn read_equipment(
     (equipment, reading.found.into_complaints())
 }
 
-/// All units of a table, and whether each of it could be read.
+/// All units of a table that could be read.
+#[derive(Default)]
 struct Units {
+    /// Whether one could not.
+    broken: bool,
     wheels: Vec<Mounted<ReactionWheel<f64>>>,
     gyros: Vec<Mounted<ControlMomentGyro<f64>>>,
     thrusters: Vec<Mounted<Thruster<f64>>>,
@@ -51,20 +56,25 @@ pub(crate) fn equipment(
     blocks(reading, sources, path, file);
     let mut provenance = std::mem::take(&mut sources.rows);
     provenance.append(&mut models.rows);
-    let Units { wheels, gyros, thrusters } = &units;
+    let Units { wheels, gyros, thrusters, .. } = &units;
+    let actuators = Actuators {
+        wheels: List::new(&bare(wheels)),
+        gyros: List::new(&bare(gyros)),
+        thrusters: List::new(&bare(thrusters)),
+        tank,
+    };
+    let gimbal_angle = starts(gyros);
+    if let Some(at) = units.first_that_turns().filter(|_| !units.broken) {
+        check_spanning(reading, &actuators, &gimbal_angle, &at);
+    }
     Equipment {
         name: file.name.clone().unwrap_or_else(|| units.name()),
-        actuators: Actuators {
-            wheels: List::new(&bare(wheels)),
-            gyros: List::new(&bare(gyros)),
-            thrusters: List::new(&bare(thrusters)),
-            tank,
-        },
+        actuators,
         wheel_names: names(wheels, WHEELS),
         gyro_names: names(gyros, GYROS),
         thruster_names: names(thrusters, THRUSTERS),
         wheel_speed: starts(wheels),
-        gimbal_angle: starts(gyros),
+        gimbal_angle,
         mass: units.sum(|unit| unit.0),
         power: units.sum(|unit| unit.1),
         provenance,
@@ -78,22 +88,30 @@ fn units(
     path: &[Step<'_>],
     file: &EquipmentFile,
 ) -> Units {
-    let mut all = Units { wheels: vec![], gyros: vec![], thrusters: vec![] };
+    let mut all = Units::default();
     for (i, given) in file.wheel.iter().enumerate() {
-        all.wheels.extend(wheel(reading, models, &item(path, "wheel", i), given));
+        let unit = wheel(reading, models, &item(path, "wheel", i), given);
+        all.broken |= unit.is_none();
+        all.wheels.extend(unit);
     }
     for (i, given) in file.gyro.iter().enumerate() {
-        all.gyros.extend(gyro(reading, models, &item(path, "gyro", i), given));
+        let unit = gyro(reading, models, &item(path, "gyro", i), given);
+        all.broken |= unit.is_none();
+        all.gyros.extend(unit);
     }
     for (i, given) in file.gyro_array.iter().enumerate() {
         let array = gyro_array(reading, models, &item(path, "gyro_array", i), given);
+        all.broken |= array.is_none();
         all.gyros.extend(array.into_iter().flatten());
     }
     for (i, given) in file.thruster.iter().enumerate() {
-        all.thrusters.extend(thruster(reading, models, &item(path, "thruster", i), given));
+        let unit = thruster(reading, models, &item(path, "thruster", i), given);
+        all.broken |= unit.is_none();
+        all.thrusters.extend(unit);
     }
     for (i, given) in file.thruster_set.iter().enumerate() {
         let set = thruster_set(reading, models, &item(path, "thruster_set", i), given);
+        all.broken |= set.is_none();
         all.thrusters.extend(set.into_iter().flatten());
     }
     all
@@ -132,6 +150,11 @@ impl Units {
         all.extend(self.gyros.iter().map(of_gyro));
         all.extend(self.thrusters.iter().map(of_thruster));
         all
+    }
+    /// Where the first wheel or gyro stands.
+    fn first_that_turns(&self) -> Option<Range<usize>> {
+        let gyro = || self.gyros.first().map(|unit| unit.at.clone());
+        self.wheels.first().map(|unit| unit.at.clone()).or_else(gyro)
     }
     /// A number of all units together; `None` if there are none or one does not say it.
     fn sum(&self, of: impl Fn(MassAndPower) -> Option<f64>) -> Option<f64> {

@@ -4,6 +4,7 @@ use crate::assemble::{Assembled, assemble};
 use crate::assembly::{AssemblyJoint, Link};
 use crate::denavit_hartenberg::arm;
 use crate::equipment::Equipment;
+use crate::equipment_on_base::check_equipment;
 use crate::format::{ActuatorFile, PostureFile, ToolFile, VehicleFile};
 use crate::provenance::Sources;
 use crate::read_equipment::equipment;
@@ -58,6 +59,9 @@ fn vehicle_of(
         }
     };
     let mut found = reading.found;
+    if found.without_error() && file.actuators.is_some() {
+        found.take(check_equipment(document, at!["actuators"], &equipment, &assembled.robot));
+    }
     if !found.without_error() {
         found.take(assembled.warnings);
         return Err(found.into_complaints());
