@@ -3,5 +3,6 @@
 #![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
 
 mod gyros;
+mod pulse_modulation;
 mod thrusters;
 mod wheels;

@@ -271,24 +271,20 @@ proptest! {
         let columns: Vec<_> =
             set.iter().map(|t| t.position_B.cross(t.direction_B * t.force)).collect();
         let cost: Vec<_> = set.iter().map(|t| t.force / t.specific_impulse).collect();
-        match best_corner(&columns, &cost, torque) {
-            Some(least) => {
-                prop_assert!(s.missing.torque.norm() < 1e-10, "{:?}", s.missing);
-                let takes = propellant(&set, &s.duty);
-                prop_assert!((takes - least).abs() < 1e-10, "{takes}, not {least}");
-            }
-            None => {
-                let mut with_share = columns.clone();
-                with_share.push(-torque);
-                let mut cost = vec![0.0; 8];
-                cost[7] = -1.0;
-                let share = best_corner(&with_share, &cost, Vec3::zero()).map_or(0.0, |cost| -cost);
-                // The least share of any axis that torque is wanted about.
-                let got = torque - s.missing.torque;
-                let least = torque.to_array().into_iter().zip(got.to_array());
-                let least = least.map(|(w, g)| g / w).fold(1.0, f64::min);
-                prop_assert!(least > share - 1e-9, "{least}, not {share}");
-            }
+        if let Some(least) = best_corner(&columns, &cost, torque) {
+            prop_assert!(s.missing.torque.norm() < 1e-10, "{:?}", s.missing);
+            let takes = propellant(&set, &s.duty);
+            prop_assert!((takes - least).abs() < 1e-10, "{takes}, not {least}");
+        } else {
+            let (mut with_share, mut cost) = (columns.clone(), vec![0.0; 8]);
+            with_share.push(-torque);
+            cost[7] = -1.0;
+            let share = best_corner(&with_share, &cost, Vec3::zero()).map_or(0.0, |cost| -cost);
+            // The least share of any axis that torque is wanted about.
+            let got = torque - s.missing.torque;
+            let shares = torque.to_array().into_iter().zip(got.to_array()).map(|(w, g)| g / w);
+            let least = shares.fold(1.0, f64::min);
+            prop_assert!(least > share - 1e-9, "{least}, not {share}");
         }
     }
 
@@ -316,7 +312,7 @@ proptest! {
         let set = corners();
         let small: Vec<Thruster<f32>> = set.iter().map(Thruster::cast).collect();
         let wanted = given(&set, Vec3::zero(), &duties);
-        let narrow = |v: Vec3<f64>| v.map(|x| x as f32);
+        let narrow = Vec3::<f32>::from_f64;
         let asked = SpatialForce::new(narrow(wanted.torque), narrow(wanted.force));
         let s = thruster_duties(&small, &USABLE, Vec3::zero(), &asked, WrenchAxes::ALL);
         prop_assert!(s.best);
