@@ -4,6 +4,6 @@
 mod envelope;
 
 pub use envelope::{
-    Facet, Mesh, Piece, Solid, SteeringReach, ThrusterTorque, facets, first_outside, least_flow,
-    singular_surfaces, steering_reach, thruster_torque,
+    Facet, Mesh, Piece, Solid, SteeringPath, SteeringReach, ThrusterTorque, facets, first_outside,
+    least_flow, singular_surfaces, steering_path, steering_reach, thruster_torque,
 };

@@ -16,5 +16,5 @@ pub use facets::{Facet, facets};
 pub use leaving::first_outside;
 pub use singular_surface::{Mesh, singular_surfaces};
 pub use solid::{Piece, Solid};
-pub use steering_reach::{SteeringReach, steering_reach};
+pub use steering_reach::{SteeringPath, SteeringReach, steering_path, steering_reach};
 pub use thruster_torque::{ThrusterTorque, least_flow, thruster_torque};
