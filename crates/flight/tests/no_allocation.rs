@@ -15,9 +15,14 @@ use counting_allocator::allocations;
 use flights::{Flight, aside, at_rest, drifting, robot, setup};
 use std::hint::black_box;
 use wrasse_dynamics::kinematics;
+use wrasse_flight::steering::{
+    Damping, GyroLaw, GyroSharing, Waves, WheelLaw, WheelSharing, gyro_rates, preferred_angles,
+    wheel_torques,
+};
 use wrasse_flight::{
     ArmLaw, Axes, Grip, Held, JointTarget, JointTiming, Measurement, NoWay, Phase,
 };
+use wrasse_hardware::{ControlMomentGyro, GYROS, ReactionWheel, WHEELS};
 use wrasse_spatial::{Pose, vec3};
 
 fn to_tool_pose(X: Pose<f64>) -> Phase<f64, 7> {
@@ -68,6 +73,58 @@ fn a_refusal_allocates_nothing() {
     let calls = allocations(|| {
         let bad = flight.step().unwrap_err();
         assert!(matches!(bad.reason, NoWay::Unreachable(_)));
+    });
+    assert_eq!(calls, 0);
+}
+
+/// All wheels, at a speed limit too, so that they share more than once.
+#[test]
+fn wheel_allocation_allocates_nothing() {
+    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.6, 0.0, 0.8]];
+    let wheels = axes.map(|[x, y, z]| ReactionWheel {
+        axis_B: vec3(x, y, z),
+        inertia: 0.1,
+        torque_limit: 0.2,
+        speed_limit: 600.0,
+        ..Default::default()
+    });
+    let speeds = [600.0, 20.0, -300.0, 100.0, 0.0, 0.0, 0.0, 0.0];
+    for sharing in [WheelSharing::PseudoInverse, WheelSharing::MinimumPeak] {
+        let law = WheelLaw { sharing, null_gain: 0.1 };
+        let wanted = vec3(0.1, -0.2, 0.3);
+        let calls = allocations(|| {
+            black_box(wheel_torques(&wheels, &[true; WHEELS], &law, wanted, &speeds));
+        });
+        assert_eq!(calls, 0, "{sharing:?}");
+    }
+}
+
+/// Steering by each law, and the search for angles to start from.
+#[test]
+fn gyro_steering_allocates_nothing() {
+    let mounted = [([0.8, 0.6], 1.0), ([-0.8, 0.6], -1.0)];
+    let gyros = mounted.map(|([x, z], y)| ControlMomentGyro {
+        gimbal_axis_B: vec3(x, 0.0, z),
+        spin_axis_B: vec3(0.0, y, 0.0),
+        momentum: 15.0,
+        rate_limit: 1.0,
+        ..Default::default()
+    });
+    let (damping, waves) = (Damping { k0: 0.01, fading: 10.0 }, Waves::default());
+    for sharing in [
+        GyroSharing::PseudoInverse,
+        GyroSharing::SingularityRobust(damping),
+        GyroSharing::GeneralizedSingularityRobust(damping, waves),
+    ] {
+        let law = GyroLaw { sharing, null_gain: 0.1 };
+        let (wanted, angles) = (vec3(1.0, -2.0, 3.0), [0.3; GYROS]);
+        let calls = allocations(|| {
+            black_box(gyro_rates(&gyros, &[true; GYROS], &law, wanted, &angles, 1.5));
+        });
+        assert_eq!(calls, 0, "{sharing:?}");
+    }
+    let calls = allocations(|| {
+        assert!(preferred_angles(&gyros, vec3(0.0, 1.0, 0.0)).is_some());
     });
     assert_eq!(calls, 0);
 }

@@ -36,8 +36,8 @@ const STRIDES: [u32; GYROS] = [
 /// `None` if the rotors cannot cancel each other, or the direction has no length.
 ///
 /// # Source
-/// [`Vadali1990`](wrasse_spatial::references::Vadali1990) for the idea; they integrate back from the
-/// end, here starts are spread evenly, put to zero momentum, and the best is improved step by step.
+/// [`Vadali1990`](wrasse_spatial::references::Vadali1990) for the idea. The search is this file's own:
+/// starts are spread evenly and put to zero momentum, and the best is improved step by step.
 pub fn preferred_angles<T: Scalar>(
     gyros: &[ControlMomentGyro<T>],
     direction_B: Vec3<T>,
