@@ -7,10 +7,13 @@ pub mod steering;
 pub mod trajectory;
 
 mod attitude_control;
+mod attitude_estimator;
 mod computed_torque;
 mod computer;
 mod door;
+mod error_covariance;
 mod feedforward;
+mod joint_estimator;
 mod law;
 mod phase;
 mod resolved_motion;
@@ -18,10 +21,12 @@ mod sequence;
 mod tool_pose;
 
 pub use attitude_control::attitude_torque;
+pub use attitude_estimator::{AttitudeEstimate, AttitudeEstimator, EstimatorSetup, TRACKER_MEMORY};
 pub use computed_torque::computed_torque;
 pub use computer::{FlightComputer, Setup};
 pub use door::{Axes, Command, Grip, Sensed};
 pub use feedforward::feedforward_torque;
+pub use joint_estimator::JointEstimator;
 pub use law::{ArmLaw, Feedforward, Measurement, Task, Tuning};
 pub use phase::{Held, JointTarget, JointTiming, PHASES, Phase, Target, Timing};
 pub use resolved_motion::{

@@ -1,0 +1,40 @@
+//! Positions and rates of the joints from encoders that round: an alpha-beta filter, fed forward
+//! with the acceleration that was asked for.
+
+use wrasse_spatial::Scalar;
+
+/// The filter, one and the same for each joint.
+#[derive(Debug, Clone)]
+pub struct JointEstimator<T, const J: usize> {
+    /// Positions (rad or m).
+    q: [T; J],
+    /// Rates (rad/s or m/s).
+    v: [T; J],
+    /// Bandwidth (rad/s).
+    bandwidth: T,
+}
+
+impl<T: Scalar, const J: usize> JointEstimator<T, J> {
+    /// Starts at rest at positions (rad or m), with a bandwidth (rad/s) that is positive.
+    pub fn new(q: [T; J], bandwidth: T) -> Self {
+        Self { q, v: [T::zero(); J], bandwidth }
+    }
+    /// Positions and rates after a control period (s), from the encoders (rad or m) at its end and
+    /// the mean acceleration (rad/s² or m/s²) that was asked for in it.
+    ///
+    /// What the model gets wrong dies out with two equal poles at `exp(-bandwidth · period)`. An
+    /// acceleration `a` that was not asked for leaves the rate behind by `2a/bandwidth`.
+    pub fn step(&mut self, q_read: &[T; J], acceleration: &[T; J], period: T) -> ([T; J], [T; J]) {
+        let pole = (-self.bandwidth * period).exp();
+        let short = T::one() - pole;
+        let (alpha, beta) = (T::one() - pole * pole, short * short);
+        for j in 0..J {
+            let a = acceleration[j] * period;
+            let foreseen = self.q[j] + (self.v[j] + a * T::from_f64(0.5)) * period;
+            let surprise = q_read[j] - foreseen;
+            self.q[j] = foreseen + surprise * alpha;
+            self.v[j] += a + surprise * (beta / period);
+        }
+        (self.q, self.v)
+    }
+}
