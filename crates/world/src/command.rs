@@ -67,7 +67,7 @@ impl<const J: usize> World<J> {
         (gone, period): (f64, f64),
         cut: &mut Vec<Saturation>,
     ) {
-        if !(self.wheels.is_empty() && self.gyros.is_empty()) {
+        if !(self.wheels.is_empty() && self.gyros.count() == 0) {
             let w_NB_B = self.state().V_NB_B.angular;
             let s = &self.system;
             let speed = self.wheels.speeds(&s.wheel_momentum, w_NB_B);

@@ -24,12 +24,14 @@ impl<const J: usize> World<J> {
     pub fn fail(&mut self, failure: Failure) {
         match failure {
             Failure::Wheel(i) => self.wheels.break_motor(i),
-            Failure::Gimbal(i) => {
-                let impulse_B = self.gyros.jam(i, &mut self.system.gimbal_rate);
-                // The momentum of the gimbal is now the bodies': the sum of both stays, and with it
-                // the state. Before, the bodies had less.
+            Failure::Gimbal(i) if i < self.gyros.count() => {
+                let had = core::mem::take(&mut self.system.gimbal_rate[i]);
+                self.carry.gimbal_rate[i] = 0.0;
+                // What the gimbal had is the bodies' now: the sum of both stays, and with it the state.
+                let impulse_B = self.gyros.jam(i, had);
                 self.jolt(impulse_B);
             }
+            Failure::Gimbal(_) => {}
             Failure::ThrusterShut(i) => self.thrusters.jam(i, Jammed::Shut),
             Failure::ThrusterOpen(i) => self.thrusters.jam(i, Jammed::Open),
         }

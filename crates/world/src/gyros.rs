@@ -22,8 +22,8 @@ impl Gyros {
     pub(crate) fn new(list: &List<ControlMomentGyro<f64>, GYROS>) -> Self {
         Self { list: *list, wanted: [0.0; GYROS], stuck: [false; GYROS] }
     }
-    pub(crate) fn is_empty(&self) -> bool {
-        self.list.is_empty()
+    pub(crate) fn count(&self) -> usize {
+        self.list.len()
     }
     /// Momentum of each gyro beside the base's, base axes (N·m·s): `h s(δ) + I δ̇ g`.
     pub(crate) fn apart_B(
@@ -105,11 +105,9 @@ impl Gyros {
     }
     /// A gimbal stands still from now on; the angular impulse that its jam gives the base at the rate
     /// that it had, base axes (N·m·s).
-    pub(crate) fn jam(&mut self, i: usize, rate: &mut [f64; GYROS]) -> Vec3<f64> {
-        let Some(gyro) = self.list.get(i) else { return Vec3::zero() };
-        let had = core::mem::take(&mut rate[i]);
+    pub(crate) fn jam(&mut self, i: usize, rate: f64) -> Vec3<f64> {
         self.stuck[i] = true;
-        gyro.gimbal_axis_B * (gyro.gimbal_inertia * had)
+        self.list[i].gimbal_axis_B * (self.list[i].gimbal_inertia * rate)
     }
     /// What the servo asks of a gimbal (rad/s²).
     fn servo(&self, i: usize, gyro: &ControlMomentGyro<f64>, rate: f64) -> f64 {
