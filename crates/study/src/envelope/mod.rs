@@ -6,7 +6,7 @@ mod facets;
 mod leaving;
 mod linear_program;
 #[cfg(test)]
-mod pyramid;
+pub(crate) mod pyramid;
 mod singular_surface;
 mod solid;
 mod steering_reach;

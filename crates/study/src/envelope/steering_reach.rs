@@ -84,7 +84,8 @@ fn gathered(
     for _ in 0..STEPS {
         // Fourth order in the turn of the gimbals, which gains this much a radian.
         let Some((k1, gain)) = way(gyros, &at, d, STALLED * all) else { break };
-        let step = STEP.min(left / gain);
+        // A step too far is taken back.
+        let step = (left / gain).clamp(-STEP, STEP);
         let Some((k2, _)) = way(gyros, &moved(&at, &k1, 0.5 * step), d, 0.0) else { break };
         let Some((k3, _)) = way(gyros, &moved(&at, &k2, 0.5 * step), d, 0.0) else { break };
         let Some((k4, _)) = way(gyros, &moved(&at, &k3, step), d, 0.0) else { break };
@@ -93,12 +94,12 @@ fn gathered(
             .fold(at, |at, (k, weight)| moved(&at, k, step * weight / 6.0));
         let gained = (momentum(gyros, &next) - momentum(gyros, &at)).dot(d);
         // Past a singular surface the way leads back.
-        if gained.is_nan() || gained <= 0.0 {
+        if gained.is_nan() || gained * step <= 0.0 {
             break;
         }
         at = next;
         left -= gained;
-        if left <= 0.1 * REACHED * all {
+        if left.abs() <= 0.1 * REACHED * all {
             break;
         }
     }

@@ -1,0 +1,178 @@
+//! What a set of actuators can hold and give.
+
+use crate::envelope::{Piece, Solid, steering_reach, thruster_torque};
+use wrasse_hardware::{ControlMomentGyro, GYROS, Thruster};
+use wrasse_spatial::Vec3;
+use wrasse_vehicle::Equipment;
+
+/// What a set of actuators can hold and give, in base axes.
+#[derive(Debug, Clone)]
+pub struct Capability {
+    /// Whether it gives any torque and holds any momentum: the reference.
+    pub ideal: bool,
+    /// Momentum of wheels and gyros on top of what they hold at the start (N·m·s).
+    pub momentum: Solid,
+    /// Torque of wheels and gyros with the gimbals at their best (N·m).
+    pub torque: Solid,
+    /// Torque of the wheels alone (N·m).
+    pub wheel_torque: Solid,
+    /// The gyros, and their gimbal angles at the start (rad).
+    pub gyros: Vec<ControlMomentGyro<f64>>,
+    /// Gimbal angles at the start (rad).
+    pub gimbal_angle: [f64; GYROS],
+    /// The thrusters.
+    pub thrusters: Vec<Thruster<f64>>,
+    /// Centre of mass that thrusters turn the vehicle about, in the base's frame (m).
+    pub p_BScm_B: Vec3<f64>,
+    /// Propellant at the start (kg); none if the file has no tank.
+    pub propellant: Option<f64>,
+}
+
+/// How far something reaches: with steering by the pseudo-inverse from the angles at the start, and at
+/// most, with steering that avoids or escapes singularities. The two differ for gyros only.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reach {
+    /// With plain steering.
+    pub plain: f64,
+    /// At most.
+    pub most: f64,
+}
+
+impl Capability {
+    /// Anything at all, at once and without end.
+    pub fn ideal() -> Self {
+        Self { ideal: true, ..Self::of(&Equipment::default(), Vec3::zero()) }
+    }
+    /// Of the actuators on a base; `p_BScm_B` (m) is the centre of mass of the whole vehicle.
+    pub fn of(equipment: &Equipment, p_BScm_B: Vec3<f64>) -> Self {
+        let actuators = &equipment.actuators;
+        let wheels = actuators.wheels.iter().zip(equipment.wheel_speed);
+        // A wheel that turns already has less left one way and more the other.
+        let momentum_of_wheels = wheels.flat_map(|(wheel, speed)| {
+            let ends = [wheel.speed_limit - speed, -wheel.speed_limit - speed];
+            ends.map(|end| Piece::OneSided { end: wheel.axis_B * (wheel.inertia * end) })
+        });
+        let torque_of_wheels =
+            actuators.wheels.iter().map(|w| Piece::Segment { half: w.axis_B * w.torque_limit });
+        let rotors = |size: fn(&ControlMomentGyro<f64>) -> f64| {
+            let disc = move |g: &ControlMomentGyro<f64>| Piece::Disc {
+                axis: g.gimbal_axis_B,
+                radius: size(g),
+            };
+            Solid { pieces: actuators.gyros.iter().map(disc).collect() }
+        };
+        let wheel_torque = Solid { pieces: torque_of_wheels.collect() };
+        let wheel_momentum = Solid { pieces: momentum_of_wheels.collect() };
+        Self {
+            ideal: false,
+            momentum: wheel_momentum.with(&rotors(|gyro| gyro.momentum)),
+            torque: wheel_torque.with(&rotors(ControlMomentGyro::torque_limit)),
+            wheel_torque,
+            gyros: actuators.gyros.to_vec(),
+            gimbal_angle: equipment.gimbal_angle,
+            thrusters: actuators.thrusters.to_vec(),
+            p_BScm_B,
+            propellant: actuators.tank.map(|tank| tank.propellant),
+        }
+    }
+    /// Whether momentum can leave the vehicle: then there is no end to what can be taken.
+    pub fn is_unbounded(&self) -> bool {
+        self.ideal || !self.thrusters.is_empty()
+    }
+    /// Largest torque along the unit vector `d` with the gimbals at the start, and with the gimbals at
+    /// their best (N·m). Thrusters give couples if they can.
+    pub fn torque_along(&self, d: Vec3<f64>) -> Reach {
+        let plain = self.torque_at(&self.gimbal_angle, d);
+        if self.ideal {
+            return Reach { plain, most: f64::INFINITY };
+        }
+        Reach { plain, most: self.torque.radius(d) + self.couple(d) }
+    }
+    /// Largest torque along the unit vector `d` at gimbal angles (N·m).
+    pub fn torque_at(&self, angles: &[f64; GYROS], d: Vec3<f64>) -> f64 {
+        if self.ideal {
+            return f64::INFINITY;
+        }
+        let turning = self.gyros.iter().zip(angles).map(|(gyro, &angle)| Piece::Segment {
+            half: gyro.torque_axis(angle) * gyro.torque_limit(),
+        });
+        let gyros = Solid { pieces: turning.collect() };
+        self.wheel_torque.with(&gyros).radius(d) + self.couple(d)
+    }
+    /// Most momentum along the unit vector `d` (N·m·s): with plain steering from the start, and up to
+    /// the surface.
+    pub fn momentum_along(&self, d: Vec3<f64>) -> Reach {
+        if self.is_unbounded() {
+            return Reach { plain: f64::INFINITY, most: f64::INFINITY };
+        }
+        let most = self.momentum.radius(d);
+        if self.gyros.is_empty() {
+            return Reach { plain: most, most };
+        }
+        let plain = steering_reach(&self.gyros, &self.gimbal_angle, d).momentum;
+        Reach { plain: plain.min(most), most }
+    }
+    /// Largest torque of the thrusters: a couple, or with the force that comes of it if the set can make
+    /// no couple (N·m).
+    fn couple(&self, d: Vec3<f64>) -> f64 {
+        if self.thrusters.is_empty() {
+            return 0.0;
+        }
+        let torque = thruster_torque(&self.thrusters, self.p_BScm_B, d);
+        if torque.couple > 0.0 { torque.couple } else { torque.with_force }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::envelope::pyramid::pyramid;
+    use wrasse_hardware::{List, ReactionWheel};
+    use wrasse_spatial::vec3;
+
+    const X: Vec3<f64> = vec3(1.0, 0.0, 0.0);
+
+    #[test]
+    fn a_wheel_that_turns_already_has_less_left_one_way() {
+        let mut equipment = Equipment::default();
+        equipment.actuators.wheels = List::new(&[ReactionWheel {
+            axis_B: X,
+            inertia: 0.1,
+            torque_limit: 0.2,
+            speed_limit: 500.0,
+            ..Default::default()
+        }]);
+        equipment.wheel_speed[0] = 200.0;
+        let able = Capability::of(&equipment, Vec3::zero());
+        let [on, back] = [X, -X].map(|d| able.momentum_along(d).most);
+        assert!((on - 30.0).abs() < 1e-12 && (back - 70.0).abs() < 1e-12, "{on} {back}");
+        assert_eq!(able.torque_along(X), Reach { plain: 0.2, most: 0.2 });
+    }
+
+    /// From zero angles the pyramid gives 2 cos β of torque and of momentum along x, at best 2 + 2 cos β.
+    #[test]
+    fn gyros_reach_less_with_plain_steering_than_at_most() {
+        let mut equipment = Equipment::default();
+        let gyros = pyramid(0.6, 50.0).map(|gyro| ControlMomentGyro { rate_limit: 0.8, ..gyro });
+        equipment.actuators.gyros = List::new(&gyros);
+        let able = Capability::of(&equipment, Vec3::zero());
+        let (torque, momentum) = (able.torque_along(X), able.momentum_along(X));
+        // Measured 0.
+        assert!(
+            (torque.plain - 48.0).abs() < 1e-12 && (torque.most - 128.0).abs() < 1e-9,
+            "{torque:?}"
+        );
+        // It ends some milliradians before the surface. Measured 2e-3.
+        assert!(
+            (momentum.plain - 60.0).abs() < 5e-3 && (momentum.most - 160.0).abs() < 1e-9,
+            "{momentum:?}"
+        );
+    }
+
+    #[test]
+    fn the_reference_is_never_at_its_end() {
+        let able = Capability::ideal();
+        assert_eq!(able.torque_along(X).plain, f64::INFINITY);
+        assert_eq!(able.momentum_along(X).most, f64::INFINITY);
+    }
+}
