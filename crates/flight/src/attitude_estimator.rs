@@ -96,7 +96,8 @@ impl<T: Scalar> AttitudeEstimator<T> {
         }
     }
     /// The estimate after a control period (s), from the mean rate of that period by the gyro
-    /// (rad/s, base axes) and the reading of the star tracker that came at its end, if one did.
+    /// (rad/s, base axes) and the reading of the star tracker that came at its end, if one did. A
+    /// period of zero, at the start, only takes the reading.
     ///
     /// # Assumptions
     /// The rate is even within a period and, where the bias enters a late reading, over its

@@ -22,18 +22,19 @@ impl<T: Scalar, const J: usize> JointEstimator<T, J> {
     /// Positions and rates after a control period (s), from the encoders (rad or m) at its end and
     /// the mean acceleration (rad/s² or m/s²) that was asked for in it.
     ///
-    /// What the model gets wrong dies out with two equal poles at `exp(-bandwidth · period)`. An
+    /// A period of zero changes nothing. What the model gets wrong dies out with two equal poles at `exp(-bandwidth · period)`. An
     /// acceleration `a` that was not asked for leaves the rate behind by `2a/bandwidth`.
     pub fn step(&mut self, q_read: &[T; J], acceleration: &[T; J], period: T) -> ([T; J], [T; J]) {
-        let pole = (-self.bandwidth * period).exp();
+        let pole = Scalar::exp(-self.bandwidth * period);
         let short = T::one() - pole;
-        let (alpha, beta) = (T::one() - pole * pole, short * short);
+        let alpha = T::one() - pole * pole;
+        let beta_per_time = if period > T::zero() { short * short / period } else { T::zero() };
         for j in 0..J {
             let a = acceleration[j] * period;
             let foreseen = self.q[j] + (self.v[j] + a * T::from_f64(0.5)) * period;
             let surprise = q_read[j] - foreseen;
             self.q[j] = foreseen + surprise * alpha;
-            self.v[j] += a + surprise * (beta / period);
+            self.v[j] += a + surprise * beta_per_time;
         }
         (self.q, self.v)
     }

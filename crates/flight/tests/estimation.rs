@@ -522,6 +522,21 @@ fn a_period_of_either_estimator_allocates_nothing() {
     assert_eq!(calls, 0);
 }
 
+/// The first control instant comes before the first period.
+#[test]
+fn a_period_of_zero_only_takes_the_reading() {
+    let truth = Truth::new(&setup(), 12);
+    let off = truth.quat_NB() * Quat::exp(vec3(1e-3, 0.0, 0.0));
+    let mut filter = AttitudeEstimator::new(&setup(), off);
+    let reading = TrackerReading { quat_NB: truth.quat_NB(), age: 0.0 };
+    let estimate = filter.step(steady(0.0), Some(reading), 0.0);
+    // What the start still weighs: (1.5e-4/1e-3)² at most, of 1e-3 rad.
+    assert!(truth.error(&estimate).norm() < 3e-5 && estimate.sigma < 1.5e-4);
+    assert_eq!((estimate.bias_B, estimate.w_NB_B), (Vec3::zero(), steady(0.0)));
+    let mut joints = JointEstimator::new([0.1], 20.0);
+    assert_eq!(joints.step(&[0.2], &[0.5], 0.0), ([0.1], [0.0]));
+}
+
 /// Position of a joint that speeds up evenly (rad), its rate (rad/s); the acceleration is 0.02.
 fn speeding_up(t: f64) -> (f64, f64) {
     (0.3 + t * (0.05 + t * 0.01), 0.05 + t * 0.02)
