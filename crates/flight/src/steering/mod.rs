@@ -5,16 +5,21 @@ mod bounded_simplex;
 mod gyro_null_motion;
 mod gyro_steering;
 mod least_peak;
+mod posture_relief;
 mod preferred_angles;
 mod pulse_modulation;
+mod rate_conditions;
 mod span;
 mod thruster_selection;
+mod unloading;
 mod wheel_allocation;
 
 pub use gyro_steering::{Damping, GyroLaw, GyroSharing, Waves, gyro_rates, gyro_singularity};
+pub use posture_relief::{NoRelief, Relief, ReliefUse, ToolTask, momentum_rate, posture_relief};
 pub use preferred_angles::preferred_angles;
 pub use pulse_modulation::{Modulation, Modulator};
 pub use thruster_selection::{Selection, WrenchAxes, controllable_axes, thruster_duties};
+pub use unloading::Unloading;
 pub use wheel_allocation::{WheelLaw, WheelSharing, wheel_torques};
 
 use wrasse_spatial::Vec3;

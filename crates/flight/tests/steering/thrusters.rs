@@ -78,7 +78,7 @@ fn check(set: &[Thruster<f64>], p_cm: Vec3<f64>, wanted: SpatialForce<f64>, s: &
     assert!(s.best, "cut short");
     assert!(s.duty.iter().all(|d| (0.0..=1.0).contains(d)), "{:?}", s.duty);
     let off = size(given(set, p_cm, &s.duty) + s.missing - wanted);
-    // Round-off of sums of 24 terms of up to 50 N·m. Measured 3e-14.
+    // Round-off of sums of 24 terms of up to 50 N·m. Measured 9e-14.
     assert!(off < 1e-12, "given and missing make not what was wanted: {off}");
 }
 
@@ -288,7 +288,7 @@ proptest! {
         }
     }
 
-    /// Never torque beyond what is wanted, nor the wrong way.
+    /// Never torque beyond what is wanted, nor the wrong way. Round-off: measured 2e-13.
     #[test]
     fn torque_never_overshoots(
         set in any_set(10),

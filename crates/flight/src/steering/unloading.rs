@@ -1,0 +1,32 @@
+//! Unloading: thrusters take from wheels and gyros the momentum that they hold.
+
+use wrasse_spatial::{Scalar, Vec3};
+
+/// When unloading starts and stops, and how fast it goes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unloading<T> {
+    /// What wheels and gyros should hold, base axes (N·m·s).
+    pub target_B: Vec3<T>,
+    /// Rate at which what is beyond the target fades (1/s).
+    pub gain: T,
+    /// It starts when more than this is beyond the target (N·m·s).
+    pub start: T,
+    /// It stops when less than this is (N·m·s).
+    pub stop: T,
+    /// Whether it is going on.
+    pub active: bool,
+}
+
+impl<T: Scalar> Unloading<T> {
+    /// Torque that the thrusters should exert on the vehicle, base axes (N·m).
+    ///
+    /// The attitude law must be told of it: wheels and gyros give the opposite, and so lose what they
+    /// hold. `stored_B` is the momentum of wheels and gyros against the base (N·m·s).
+    pub fn torque(&mut self, stored_B: Vec3<T>) -> Vec3<T> {
+        let beyond = stored_B - self.target_B;
+        let size = beyond.norm();
+        // Something that is not a number is neither: nothing starts, and what goes on ends.
+        self.active = if self.active { size >= self.stop } else { size > self.start };
+        if self.active { -(beyond * self.gain) } else { Vec3::zero() }
+    }
+}
