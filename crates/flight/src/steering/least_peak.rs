@@ -1,6 +1,6 @@
 //! The solution of least peak: no larger value anywhere than must be.
 
-use super::span::{Span, least_norm, negligible, sum};
+use super::span::{Span, least_norm, no_angle, sum, thinnest};
 use wrasse_spatial::{Scalar, Vec3};
 
 /// The x of least `max |x_k|` whose `Σ axis_k x_k` comes nearest to what is wanted; zero for axes not
@@ -17,14 +17,14 @@ pub(super) fn least_peak<T: Scalar, const N: usize>(
     wanted: Vec3<T>,
 ) -> [T; N] {
     let (mut x, mut free) = ([T::zero(); N], *used);
-    let wanted = Span::of(axes, used).inside(wanted);
+    let wanted = Span::of(axes, used, thinnest()).inside(wanted);
     for _ in 0..3 {
-        let span = Span::of(axes, &free);
+        let span = Span::of(axes, &free, no_angle());
         let left = span.inside(wanted - sum(axes, &x));
         let Some(face) = steepest_face(axes, &free, &span, left) else { break };
         for k in 0..N {
             let slope = axes[k].dot(face.normal);
-            if free[k] && slope.abs() > negligible::<T>() * axes[k].norm() * face.normal.norm() {
+            if free[k] && slope.abs() > no_angle::<T>() * axes[k].norm() * face.normal.norm() {
                 x[k] = if slope > T::zero() { face.peak } else { -face.peak };
                 free[k] = false;
             }
@@ -70,7 +70,7 @@ fn steepest_face<T: Scalar, const N: usize>(
                 for j in (0..i).filter(|&j| free[j]) {
                     let normal = axes[i].cross(axes[j]);
                     // Nearly parallel axes have a face too thin to matter, and no sure normal.
-                    if normal.norm() > negligible::<T>() * axes[i].norm() * axes[j].norm() {
+                    if normal.norm() > no_angle::<T>() * axes[i].norm() * axes[j].norm() {
                         see(normal);
                     }
                 }

@@ -2,10 +2,15 @@
 
 use wrasse_spatial::{Mat3, Scalar, Sym3, Vec3};
 
-/// Sine below which an axis lies in the span of others. The normal equations square it, and must stay
-/// well above round-off.
-pub(super) fn negligible<T: Scalar>() -> T {
-    T::from_f64(16.0) * T::epsilon().sqrt()
+/// Sine of an angle that may be round-off of none.
+pub(super) fn no_angle<T: Scalar>() -> T {
+    T::epsilon().sqrt()
+}
+
+/// Sine below which an axis adds no direction to solve for: the normal equations square it, and must
+/// stay well above round-off.
+pub(super) fn thinnest<T: Scalar>() -> T {
+    T::from_f64(16.0) * no_angle()
 }
 
 /// What some axes span: orthonormal directions, as many as the rank.
@@ -16,12 +21,13 @@ pub(super) struct Span<T> {
 }
 
 impl<T: Scalar> Span<T> {
-    /// Span of the axes that are used; lengths do not matter.
-    pub(super) fn of<const N: usize>(axes: &[Vec3<T>; N], used: &[bool; N]) -> Self {
+    /// Span of the axes that are used; lengths do not matter. An axis counts as inside if the sine of
+    /// its angle to the span is below the least one.
+    pub(super) fn of<const N: usize>(axes: &[Vec3<T>; N], used: &[bool; N], least_sine: T) -> Self {
         let mut span = Self { basis: [Vec3::zero(); 3], rank: 0 };
         while span.rank < 3 {
             // The axis that stands out most is the next direction.
-            let (mut most, mut direction) = (negligible(), Vec3::zero());
+            let (mut most, mut direction) = (least_sine, Vec3::zero());
             for k in (0..N).filter(|&k| used[k]) {
                 let out = span.across(unit(axes[k]));
                 if most < out.norm() {
@@ -75,7 +81,7 @@ pub(super) fn least_norm<T: Scalar, const N: usize>(
     used: &[bool; N],
     wanted: Vec3<T>,
 ) -> [T; N] {
-    let span = Span::of(axes, used);
+    let span = Span::of(axes, used, thinnest());
     // Across the span anything positive will do: nothing is wanted there.
     let mut G = gram(axes, used);
     let size = G.xx + G.yy + G.zz;

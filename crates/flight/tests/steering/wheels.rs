@@ -90,7 +90,7 @@ fn solve(M: &Mat3<f64>, b: Vec3<f64>) -> Vec3<f64> {
 
 fn cases() -> ProptestConfig {
     ProptestConfig {
-        cases: 512,
+        cases: 2048,
         rng_seed: RngSeed::Fixed(19_900_613),
         failure_persistence: None,
         ..ProptestConfig::default()
@@ -101,7 +101,7 @@ proptest! {
     #![proptest_config(cases())]
 
     /// Relative to what is wanted, round-off times the condition of the axes: the direction measured
-    /// 3.0e-15, the sum 1.5e-16, the peak not above one at all.
+    /// 3.0e-15, the sum 1.8e-16, the peak not above one at all.
     #[test]
     fn small_torques_are_given_whole_and_large_ones_in_their_direction(
         wheels in array(), wanted in vector(1.0), size in -3.0..1.0,
@@ -119,7 +119,7 @@ proptest! {
         }
     }
 
-    /// Round-off times the condition of the axes: measured 1.9e-15, and 8.9e-16 above the pseudo-inverse.
+    /// Round-off times the condition of the axes: measured 3.6e-15, and 1.1e-15 above the pseudo-inverse.
     #[test]
     fn the_least_peak_is_that_of_all_vertices_and_below_that_of_the_pseudo_inverse(
         wheels in array(), wanted in vector(0.02),
@@ -162,7 +162,7 @@ proptest! {
             let evening = WheelLaw { sharing, null_gain: 0.05 };
             let with = wheel_torques(&wheels, &ALL, &evening, wanted, &speeds);
             let off = with.missing_B - without.missing_B;
-            // Against torques of up to 1 N·m, round-off times the condition: measured 3.8e-15.
+            // Against torques of up to 1 N·m, round-off times the condition: measured 4.1e-15.
             prop_assert!(off.norm() < 4e-14, "{:e}", off.norm());
             prop_assert!(peak(&wheels, &with.values) <= 1.0 + 1e-12);
         }
@@ -183,27 +183,27 @@ proptest! {
                 prop_assert!(told.values[k] * speeds[k] <= 0.0, "{k}: {:?}", told.values);
             }
             let sum = given(&wheels, &told.values);
-            // Round-off of torques below 1 N·m: measured 7.9e-17.
+            // Round-off of torques below 1 N·m: measured 8.3e-17.
             prop_assert!((sum + told.missing_B - wanted).norm() < 1e-15);
-            // What is given never works against what is wanted.
-            prop_assert!(sum.dot(wanted) >= -1e-15);
+            // What is given never works against what is wanted: measured 6.1e-16 against it.
+            prop_assert!(sum.dot(wanted) >= -1e-14);
         }
     }
 
-    /// Axes nearer to a face than the root of round-off count as in it: measured 3.4e-3 of the peak, and
-    /// 6.7e-7 of what is wanted is not given.
+    /// Round-off of 6e-8 times the condition of the axes: measured 8.0e-6 of the peak, and 1.3e-6 of what
+    /// is wanted not given.
     #[test]
-    fn the_least_peak_in_single_precision_is_nearly_the_same(
+    fn the_least_peak_in_single_precision_is_the_same(
         wheels in array(), wanted in vector(0.02),
     ) {
         let narrow: Vec<_> = wheels.iter().map(ReactionWheel::cast::<f32>).collect();
         let law_narrow = WheelLaw { sharing: WheelSharing::MinimumPeak, null_gain: 0.0_f32 };
         let law_wide = law(WheelSharing::MinimumPeak);
         let wide = wheel_torques(&wheels, &ALL, &law_wide, wanted, &STILL);
-        prop_assume!(peak(&wheels, &wide.values) < 0.99);
+        prop_assume!(peak(&wheels, &wide.values) < 0.99 && wanted.norm() > 1e-4);
         let told = wheel_torques(&narrow, &ALL, &law_narrow, Vec3::from_f64(wanted), &[0.0; WHEELS]);
         let off = peak(&wheels, &told.values.map(f64::from)) / peak(&wheels, &wide.values) - 1.0;
-        prop_assert!(off.abs() < 1e-2, "{off:e}");
+        prop_assert!(off.abs() < 1e-4, "{off:e}");
         let missing = (wanted - given(&wheels, &told.values.map(f64::from))).norm() / wanted.norm();
         prop_assert!(missing < 1e-5, "{missing:e}");
     }
