@@ -197,9 +197,11 @@ fn no_such_model<N: Catalogued>(name: &str) -> (String, String) {
         return (message, format!("\"{name}\" is a {}", other.kind));
     }
     let names = || N::models().iter().map(|model| model.name.as_str());
-    let help = match closest(name, names()) {
-        Some(meant) => format!("did you mean \"{meant}\"?"),
-        None => format!("the catalogue has {}", names().collect::<Vec<_>>().join(", ")),
-    };
+    if let Some(meant) = closest(name, names()) {
+        return (message, format!("did you mean \"{meant}\"?"));
+    }
+    let alike: Vec<_> = names().filter(|known| known.starts_with(name)).collect();
+    let told = if alike.is_empty() { names().collect() } else { alike };
+    let help = format!("the catalogue has {}", told.join(", "));
     (message, help)
 }

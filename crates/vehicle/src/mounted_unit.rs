@@ -1,5 +1,6 @@
 //! A unit on its mounting, as it is read: with its name, its place in the file and its start.
 
+use crate::figures::figures;
 use crate::toml_reading::{Reading, under};
 use std::ops::Range;
 use wrasse_document::Step;
@@ -39,7 +40,8 @@ pub(crate) fn direction(
             return Some(scaled * (1.0 / length));
         }
     }
-    let message = format!("`{key}` of {of} has no direction, found {given:?}");
+    let [x, y, z] = given.map(figures);
+    let message = format!("`{key}` of {of} has no direction, found [{x}, {y}, {z}]");
     let help = "a direction has any length but zero: [1, 0, 0]";
     reading.error(&under(path, key), message, "no direction", help);
     None

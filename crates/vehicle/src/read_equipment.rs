@@ -11,7 +11,6 @@ use crate::toml_gyro::{gyro, gyro_array};
 use crate::toml_reading::{Reading, under};
 use crate::toml_thruster::{tank, thruster, thruster_set};
 use crate::toml_wheel::wheel;
-use std::collections::BTreeMap;
 use std::ops::Range;
 use wrasse_document::{Complaint, Document, Step};
 use wrasse_hardware::{
@@ -51,7 +50,7 @@ pub(crate) fn equipment(
     let mut models = ModelsUsed::default();
     let units = units(reading, &mut models, path, file);
     check_counts(reading, &units);
-    check_names(reading, &units);
+    check_names(reading, path, file, &units);
     let tank = file.tank.as_ref().map(|given| tank(reading, &under(path, "tank"), given));
     blocks(reading, sources, path, file);
     let mut provenance = std::mem::take(&mut sources.rows);
@@ -197,16 +196,31 @@ fn check_counts(reading: &mut Reading<'_>, units: &Units) {
 }
 
 /// Complains of units of one name: commands and failures name them.
-fn check_names(reading: &mut Reading<'_>, units: &Units) {
-    let named = units.each(|u| (&u.name, &u.at), |u| (&u.name, &u.at), |u| (&u.name, &u.at));
-    let mut first = BTreeMap::new();
-    let mut told = Vec::new();
-    for (name, at) in named {
-        let Some(other) = first.insert(name, at) else { continue };
-        // Two arrays of one name are one mistake.
-        if told.contains(&at) {
-            continue;
-        }
+fn check_names(reading: &mut Reading<'_>, path: &[Step<'_>], file: &EquipmentFile, units: &Units) {
+    let mut named = vec![];
+    macro_rules! names_of {
+        ($list:ident) => {
+            for (i, unit) in file.$list.iter().enumerate() {
+                let place = reading.below(&item(path, stringify!($list), i), "name");
+                named.push((unit.name.clone(), place));
+            }
+        };
+    }
+    names_of!(wheel);
+    names_of!(gyro);
+    names_of!(gyro_array);
+    names_of!(thruster);
+    names_of!(thruster_set);
+    // Names that arrays and sets give, and not again those of single units.
+    let given = units.each(|u| (&u.name, &u.at), |u| (&u.name, &u.at), |u| (&u.name, &u.at));
+    let given = given.into_iter().map(|(name, at)| (name.clone(), at.clone()));
+    let fresh: Vec<_> = given.filter(|unit| !named.contains(unit)).collect();
+    named.extend(fresh);
+    // Two arrays of one name are one mistake.
+    let mut told: Vec<&Range<usize>> = vec![];
+    for (i, (name, at)) in named.iter().enumerate() {
+        let known = named[..i].iter().find(|(known, place)| known == name && place != at);
+        let Some((_, other)) = known.filter(|_| !told.contains(&at)) else { continue };
         told.push(at);
         let line = reading.found.line(other.start);
         let message = format!("two units are called '{name}'; the other is on line {line}");

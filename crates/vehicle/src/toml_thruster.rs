@@ -3,6 +3,7 @@
 use crate::equipment_format::{
     TankFile, ThrusterArrangementFile, ThrusterFile, ThrusterNumbers, ThrusterSetFile,
 };
+use crate::figures::figures;
 use crate::hardware_catalogue::ModelsUsed;
 use crate::mounted_unit::{Mounted, direction};
 use crate::thruster_box::{Push, sixteen, twelve, twenty_four};
@@ -98,8 +99,8 @@ fn pushes(
     let ThrusterArrangementFile::Box = file.arrangement;
     let flat = file.edges_m.iter().any(|edge| *edge <= 0.0);
     if flat {
-        let message =
-            format!("edges of the box of {of} must be positive, found {:?}", file.edges_m);
+        let [x, y, z] = file.edges_m.map(figures);
+        let message = format!("edges of the box of {of} must be positive, found [{x}, {y}, {z}]");
         reading.error(&under(path, "edges_m"), message, "these edges", "edges are in metres");
     }
     let half = Vec3::from_array(file.edges_m) * 0.5;

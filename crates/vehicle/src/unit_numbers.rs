@@ -225,7 +225,7 @@ pub(crate) fn check_there(
     if missing.is_empty() {
         return;
     }
-    let message = format!("{of} has no {}", missing.join(" and no "));
+    let message = format!("{of} has no {}", missing.join(", no "));
     let help = "write each beside the unit, or name a `model` of the hardware catalogue: `wrasse \
                 hardware` lists them";
     // At its name, or for a sensor, which has none, at its table.

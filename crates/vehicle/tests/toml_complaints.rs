@@ -235,7 +235,8 @@ mod never_panics {
     fn seeds() -> Vec<&'static str> {
         let arms = include_str!("data/denavit_hartenberg.toml");
         let files = catalogue().iter().filter(|entry| !entry.text.starts_with('<'));
-        [GOOD, arms].into_iter().chain(files.map(|entry| entry.text)).collect()
+        let equipped = include_str!("data/servicer.toml");
+        [GOOD, arms, equipped].into_iter().chain(files.map(|entry| entry.text)).collect()
     }
 
     proptest! {
