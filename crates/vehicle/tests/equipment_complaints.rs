@@ -8,7 +8,7 @@ const GOOD: &str = include_str!("data/servicer.toml");
 
 /// The servicer's bus and nothing else.
 fn bus() -> &'static str {
-    GOOD.split_once("[[actuators.wheel]]").unwrap().0
+    GOOD.split_once("[[actuators.wheel]]").expect("a wheel").0
 }
 
 /// All that is said about a text.
