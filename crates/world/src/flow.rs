@@ -31,10 +31,12 @@ pub struct Flow<const J: usize> {
     /// Angular impulse from outside about the common centre of mass of the vehicle and the free
     /// bodies, inertial axes (N·m·s).
     pub from_outside: Vec3<f64>,
-    /// Angular impulse of the thrusters, about the same point (N·m·s).
+    /// Impulse from outside, inertial axes (N·s).
+    pub outside_impulse: Vec3<f64>,
+    /// Angular impulse of the thrusters, about the same point as that from outside (N·m·s).
     pub from_thrusters: Vec3<f64>,
     /// Impulse of the thrusters, inertial axes (N·s).
-    pub push: Vec3<f64>,
+    pub thruster_impulse: Vec3<f64>,
     /// Work on the bodies: of the joint drives, of whatever turns and pushes the base, and from
     /// outside (J).
     pub work: Vec3<f64>,
@@ -61,8 +63,9 @@ impl<const J: usize> Flow<J> {
             gimbal_rate: core::array::from_fn(|i| f(self.gimbal_rate[i], other.gimbal_rate[i])),
             from_actuator: v(self.from_actuator, other.from_actuator),
             from_outside: v(self.from_outside, other.from_outside),
+            outside_impulse: v(self.outside_impulse, other.outside_impulse),
             from_thrusters: v(self.from_thrusters, other.from_thrusters),
-            push: v(self.push, other.push),
+            thruster_impulse: v(self.thruster_impulse, other.thruster_impulse),
             work: v(self.work, other.work),
         }
     }
@@ -84,8 +87,9 @@ impl<const J: usize> Displacement for Flow<J> {
             gimbal_rate: [0.0; GYROS],
             from_actuator: o,
             from_outside: o,
+            outside_impulse: o,
             from_thrusters: o,
-            push: o,
+            thruster_impulse: o,
             work: o,
         }
     }
@@ -103,8 +107,9 @@ impl<const J: usize> Displacement for Flow<J> {
             self.angular,
             self.from_actuator,
             self.from_outside,
+            self.outside_impulse,
             self.from_thrusters,
-            self.push,
+            self.thruster_impulse,
             self.work,
         ];
         let vectors = vectors.into_iter().flat_map(Vec3::to_array);

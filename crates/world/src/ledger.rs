@@ -132,9 +132,9 @@ impl<const J: usize> World<J> {
         ledger.now = self.account();
         ledger.angular_from_actuator = self.booked.from_actuator;
         ledger.angular_from_outside = self.booked.from_outside;
-        ledger.linear_from_outside = self.booked.linear - self.booked.push;
+        ledger.linear_from_outside = self.booked.outside_impulse;
         ledger.angular_from_thrusters = self.booked.from_thrusters;
-        ledger.linear_from_thrusters = self.booked.push;
+        ledger.linear_from_thrusters = self.booked.thruster_impulse;
         ledger.propellant = self.carried;
         ledger.work = self.booked.work;
         ledger.energy_at_grasps = self.energy_at_grasps;
@@ -253,7 +253,12 @@ mod tests {
     fn a_booking_without_a_cause_is_a_rest() {
         near(rests(|world| world.booked.from_actuator.z += 1e-6)[0], 1e-6);
         near(rests(|world| world.booked.from_outside.z -= 1e-6)[0], 1e-6);
-        near(rests(|world| world.booked.linear.y += 1e-6)[1], 1e-6);
+        near(rests(|world| world.booked.outside_impulse.y += 1e-6)[1], 1e-6);
+        near(rests(|world| world.booked.from_thrusters.x += 1e-6)[0], 1e-6);
+        near(rests(|world| world.booked.thruster_impulse.z -= 1e-6)[1], 1e-6);
+        near(rests(|world| world.carried.angular.x += 1e-6)[0], 1e-6);
+        near(rests(|world| world.carried.linear.x += 1e-6)[1], 1e-6);
+        near(rests(|world| world.carried.energy += 1e-6)[2], 1e-6);
         near(rests(|world| world.booked.work.x += 1e-6)[2], 1e-6);
         near(rests(|world| world.energy_at_grasps -= 1e-6)[2], 1e-6);
     }

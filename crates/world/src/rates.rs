@@ -145,8 +145,9 @@ impl<const J: usize> World<J> {
             gimbal_rate: acting.gimbal_acceleration,
             from_actuator: torque_N,
             from_outside: torque + beside.cross(force),
+            outside_impulse: force,
             from_thrusters: turn + beside.cross(push),
-            push,
+            thruster_impulse: push,
             work,
         }
     }
