@@ -88,12 +88,12 @@ impl<T: Scalar> Modulator<T> {
             // It never falls so far: the input is too large.
             period
         } else {
-            (law.lag * (above / least).ln()).min(period)
+            (law.lag * T::ln(above / least)).min(period)
         }
     }
     /// The level after some time (s) with a constant input of the lag: exact.
     fn level_after(&self, law: &Modulation<T>, input: T, time: T) -> T {
         let end = law.gain * input;
-        end + (self.level - end) * (-time / law.lag).exp()
+        end + (self.level - end) * T::exp(-time / law.lag)
     }
 }
