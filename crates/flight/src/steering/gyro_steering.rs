@@ -2,7 +2,7 @@
 
 use super::Allocation;
 use super::gyro_null_motion::null_motion;
-use super::span::{gram, least_norm, share_that_fits, sum};
+use super::span::{all_finite, gram, least_norm, share_that_fits, sum};
 use wrasse_hardware::{ControlMomentGyro, GYROS};
 use wrasse_spatial::{Scalar, Sym3, Vec3};
 
@@ -73,7 +73,7 @@ pub fn gyro_rates<T: Scalar>(
     angles: &[T; GYROS],
     time: T,
 ) -> Allocation<T, GYROS> {
-    let finite = wanted_B.to_array().iter().all(|w| w.is_finite());
+    let finite = all_finite(&wanted_B.to_array());
     let used = used_gyros(gyros, usable.map(|usable| usable && finite), angles);
     let mean = mean_momentum(gyros, used);
     let axes = torque_axes(gyros, used, mean, angles);
@@ -164,12 +164,9 @@ impl<T: Scalar> GyroSharing<T> {
         };
         let k = damping.k0 * T::exp(-damping.fading * determinant(&G));
         let y = (G + waves.at(time).scaled(k)).solve(wanted);
-        if y.to_array().iter().all(|y| y.is_finite()) {
-            axes.map(|axis| axis.dot(y))
-        } else {
-            // Without damping, or without gyros, a singularity has no inverse.
-            least_norm(axes, &used, wanted)
-        }
+        let rates = axes.map(|axis| axis.dot(y));
+        // Without damping a singularity has no inverse.
+        if all_finite(&rates) { rates } else { least_norm(axes, &used, wanted) }
     }
 }
 

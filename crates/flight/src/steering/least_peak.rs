@@ -1,6 +1,6 @@
 //! The solution of least peak: no larger value anywhere than must be.
 
-use super::span::{Span, least_norm, no_angle, sum, thinnest};
+use super::span::{Span, all_finite, least_norm, no_angle, sum, thinnest};
 use wrasse_spatial::{Scalar, Vec3};
 
 /// The x of least `max |x_k|` whose `Σ axis_k x_k` comes nearest to what is wanted; zero for axes not
@@ -32,7 +32,8 @@ pub(super) fn least_peak<T: Scalar, const N: usize>(
     }
     // What was taken to lie in a face may be off it by the tolerance: the sum is made exact.
     let rest = least_norm(axes, used, wanted - sum(axes, &x));
-    core::array::from_fn(|k| x[k] + rest[k])
+    let x = core::array::from_fn(|k| x[k] + rest[k]);
+    if all_finite(&x) { x } else { [T::zero(); N] }
 }
 
 /// A face of the zonotope, and how far it must be moved out.

@@ -96,8 +96,13 @@ pub(super) fn least_norm<T: Scalar, const N: usize>(
             x[k] += axes[k].dot(y);
         }
     }
-    // Without any axis the equations are empty, not zero.
-    if size > T::zero() { x } else { [T::zero(); N] }
+    // Without any axis the equations have no solution; what is wanted may be beyond all numbers.
+    if all_finite(&x) { x } else { [T::zero(); N] }
+}
+
+/// Whether none is infinite or no number.
+pub(super) fn all_finite<T: Scalar>(x: &[T]) -> bool {
+    x.iter().all(|x| x.is_finite())
 }
 
 /// The largest part, at most the whole, of `extra` that fits on top of `x` between the bounds.

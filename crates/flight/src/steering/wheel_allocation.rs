@@ -2,7 +2,7 @@
 
 use super::Allocation;
 use super::least_peak::least_peak;
-use super::span::{least_norm, share_that_fits, sum};
+use super::span::{all_finite, least_norm, share_that_fits, sum};
 use wrasse_hardware::{ReactionWheel, WHEELS};
 use wrasse_spatial::{Scalar, Vec3};
 
@@ -48,7 +48,7 @@ pub fn wheel_torques<T: Scalar>(
     speeds: &[T; WHEELS],
 ) -> Allocation<T, WHEELS> {
     let wheel = |k: usize| wheels.get(k).copied().unwrap_or_default();
-    let finite = wanted_B.to_array().iter().all(|w| w.is_finite());
+    let finite = all_finite(&wanted_B.to_array());
     let used =
         core::array::from_fn(|k| usable[k] && finite && speeds[k].is_finite() && able(&wheel(k)));
     // All is counted in shares of each wheel's torque limit.
@@ -72,7 +72,7 @@ pub fn wheel_torques<T: Scalar>(
 /// Whether a wheel has what it takes to give torque.
 fn able<T: Scalar>(wheel: &ReactionWheel<T>) -> bool {
     let limits = [wheel.torque_limit, wheel.momentum_limit()];
-    limits.iter().all(|limit| limit.is_finite() && *limit > T::zero())
+    all_finite(&limits) && limits.iter().all(|limit| *limit > T::zero())
 }
 
 impl WheelSharing {

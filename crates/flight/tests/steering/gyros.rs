@@ -503,3 +503,20 @@ fn what_is_not_a_number_turns_no_gimbal() {
         assert_eq!((told.values, told.missing_B), ([0.0; GYROS], wanted));
     }
 }
+
+/// Numbers at either end of the range: rates within limits, or none.
+#[test]
+fn extreme_torques_and_angles_stay_within_limits() {
+    let gyros = pyramid(60.0);
+    for sharing in every_sharing() {
+        for size in [f64::MIN_POSITIVE, 1e-200, 1e200, f64::MAX] {
+            for angle in [0.0, size, -size] {
+                let law = GyroLaw { sharing, null_gain: 1.0 };
+                let wanted = vec3(size, -size, 0.3 * size);
+                let told = gyro_rates(&gyros, &ALL, &law, wanted, &[angle; GYROS], size);
+                let within = |rate: &f64| rate.abs() <= 1.0;
+                assert!(told.values.iter().all(within), "{size:e} {angle:e}: {told:?}");
+            }
+        }
+    }
+}

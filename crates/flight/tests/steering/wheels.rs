@@ -349,3 +349,20 @@ fn what_is_not_a_number_moves_no_wheel() {
     assert_eq!(told.values[2], 0.0);
     assert!(told.missing_B.norm() < 1e-16);
 }
+
+/// Numbers at either end of the range: a command within limits, or none.
+#[test]
+fn extreme_torques_and_speeds_stay_within_limits() {
+    let wheels = pyramid();
+    for sharing in BOTH {
+        for size in [f64::MIN_POSITIVE, 1e-200, 1e200, f64::MAX] {
+            for speed in [0.0, size, -size] {
+                let law = WheelLaw { sharing, null_gain: 1.0 };
+                let wanted = vec3(size, -size, 0.3 * size);
+                let told = wheel_torques(&wheels, &ALL, &law, wanted, &[speed; WHEELS]);
+                let within = |u: &f64| u.abs() <= 0.2;
+                assert!(told.values.iter().all(within), "{size:e} {speed:e}: {told:?}");
+            }
+        }
+    }
+}
