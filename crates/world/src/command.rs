@@ -21,7 +21,7 @@ pub enum Saturation {
     /// The rate of this gimbal.
     GimbalRate(usize),
     /// The motor of this gimbal: it cannot turn the gimbal as it should beside what the turning base
-    /// asks of it.
+    /// asks of it, as the period begins.
     GimbalMotor(usize),
     /// This thruster was told to open for less than it can: it stayed shut, or, open already, stays
     /// so for its shortest time.

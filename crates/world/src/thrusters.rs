@@ -67,32 +67,29 @@ impl Thrusters {
         for (i, thruster) in self.list.iter().enumerate() {
             let before = self.pulses[i];
             let is_open = before.shuts > gone;
-            let mut on = match self.jammed[i] {
+            let open_for = if is_open { before.open_for + gone } else { 0.0 };
+            let least = (thruster.minimum_on_time - open_for) * (1.0 - 1e-9);
+            let mut shuts = match self.jammed[i] {
                 Some(Jammed::Shut) => 0.0,
                 Some(Jammed::Open) => f64::INFINITY,
-                None if on[i] >= period * (1.0 - 1e-12) => f64::INFINITY,
-                None => on[i].max(0.0),
+                None => {
+                    let (shuts, is_as_told) = shutting_time(on[i], period, least, is_open);
+                    if is_fed && !is_as_told {
+                        cut.push(Saturation::PulseTooShort(i));
+                    }
+                    shuts
+                }
             };
-            let open_for = if is_open { before.open_for + gone } else { 0.0 };
-            // A valve that is open stays so for its shortest time at least.
-            let least = (thruster.minimum_on_time - open_for) * (1.0 - 1e-9);
             if !is_fed {
-                is_missed |= on > 0.0;
-                on = 0.0;
-            } else if on < least && (is_open || on > 0.0) && self.jammed[i].is_none() {
-                cut.push(Saturation::PulseTooShort(i));
-                on = match is_open {
-                    true if least < period => least,
-                    true => f64::INFINITY,
-                    false => 0.0,
-                };
+                is_missed |= shuts > 0.0 || on[i] > 0.0;
+                shuts = 0.0;
             }
             let mut gain = before.gain;
-            if !is_open && on > 0.0 {
+            if !is_open && shuts > 0.0 {
                 gain = (1.0 + thruster.impulse_noise * self.noise[i].normal()).max(0.0);
             }
             let level = before.level(thruster, gone, gone);
-            self.pulses[i] = Pulse { level, shuts: on, open_for, gain };
+            self.pulses[i] = Pulse { level, shuts, open_for, gain };
         }
         if is_missed {
             cut.push(Saturation::TankEmpty);
@@ -133,6 +130,24 @@ impl Thrusters {
         each.fold(0.0, |mass, (thruster, force)| {
             mass + force * (to - from) / (thruster.specific_impulse * STANDARD_GRAVITY)
         })
+    }
+}
+
+/// When a valve shuts that is told to be open for `on` in a period and, once it is open, stays so for
+/// `least` (s); and whether that is as it was told.
+fn shutting_time(on: f64, period: f64, least: f64, is_open: bool) -> (f64, bool) {
+    if on >= period * (1.0 - 1e-12) {
+        return (f64::INFINITY, true);
+    }
+    // What is not a number opens nothing.
+    let on = on.max(0.0);
+    if on >= least || (on == 0.0 && !is_open) {
+        return (on, true);
+    }
+    match is_open {
+        true if least < period => (least, false),
+        true => (f64::INFINITY, false),
+        false => (0.0, false),
     }
 }
 

@@ -96,7 +96,7 @@ fn push_and_turn_are_force_and_lever() {
 }
 
 /// The force turns with the base and bends where no step would end: order 4 all the same. Measured
-/// 3.76 (the steps between bends do not all shrink alike); without the split at the bends ORDER.
+/// 3.76 (the steps between bends do not all shrink alike); without the split at the bends 2.26.
 #[test]
 fn steps_keep_their_order_over_the_bends_of_the_force() {
     let odd = Thruster {
