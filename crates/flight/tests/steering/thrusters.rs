@@ -169,6 +169,13 @@ fn a_set_that_pushes_one_way_controls_nothing() {
         controllable_axes::<f64>(&[], &USABLE, Vec3::zero()),
         WrenchAxes { torque: [false; 3], force: [false; 3] }
     );
+    // Both ways, but along a diagonal: force along one axis comes with force along another.
+    let slanted = vec3(0.6, 0.8, 0.0);
+    let both_ways = [slanted, -slanted].map(|d| thruster(Vec3::zero(), d, 10.0));
+    assert_eq!(
+        controllable_axes(&both_ways, &USABLE, Vec3::zero()),
+        WrenchAxes { torque: [false; 3], force: [false; 3] }
+    );
     // Straight through the centre of mass with both: force without torque, one way only.
     let wanted = wrench([0.0; 3], [12.0, 0.0, 0.0]);
     let s = thruster_duties(&set, &USABLE, Vec3::zero(), &wanted, WrenchAxes::ALL);
