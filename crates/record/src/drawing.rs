@@ -259,7 +259,7 @@ fn grid(view: &View) -> String {
 }
 
 /// A step of 1, 2 or 5 times a power of ten (m) that divides `span` into at most nine parts.
-fn step(span: f64) -> f64 {
+pub(crate) fn step(span: f64) -> f64 {
     let mut step = 1e-3;
     for factor in [2.0, 2.5, 2.0].iter().cycle() {
         if span / step <= 9.0 {
@@ -271,7 +271,7 @@ fn step(span: f64) -> f64 {
 }
 
 /// The multiples of `step` from `low` to `high`.
-fn marks(low: f64, high: f64, step: f64) -> impl Iterator<Item = f64> {
+pub(crate) fn marks(low: f64, high: f64, step: f64) -> impl Iterator<Item = f64> {
     let first = (low / step).ceil();
     (0..64).map(move |k| (first + f64::from(k)) * step).take_while(move |metres| *metres <= high)
 }

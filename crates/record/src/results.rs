@@ -78,18 +78,25 @@ pub fn write_results(outcome: &Outcome, dir: &Path) -> Result<Written, RecordErr
     let contents =
         [report_html(outcome).into_bytes(), telemetry_parquet(outcome)?, summary.into_bytes()];
 
+    let files: Vec<_> = NAMES.into_iter().zip(contents).collect();
+    put_files(&files, dir)?;
+    let [report, telemetry, summary] = NAMES.map(|name| dir.join(name));
+    Ok(Written { report, telemetry, summary })
+}
+
+/// Names and contents of files, put into `dir` together or not at all, the last one last.
+pub(crate) fn put_files(files: &[(&str, Vec<u8>)], dir: &Path) -> Result<(), RecordError> {
     fs::create_dir_all(dir).map_err(|source| refused("create the directory", dir, source))?;
     let staging = tempfile::Builder::new()
         .prefix(".wrasse-")
         .tempdir_in(dir)
         .map_err(|source| refused("write into", dir, source))?;
-    for (name, content) in NAMES.iter().zip(&contents) {
+    for (name, content) in files {
         let path = staging.path().join(name);
         write_durably(&path, content).map_err(|source| refused("write", &path, source))?;
     }
-    put_in_place(staging.path(), dir)?;
-    let [report, telemetry, summary] = NAMES.map(|name| dir.join(name));
-    Ok(Written { report, telemetry, summary })
+    let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
+    put_in_place(&names, staging.path(), dir)
 }
 
 fn refused(doing: &'static str, path: &Path, source: io::Error) -> RecordError {
@@ -104,9 +111,9 @@ fn write_durably(path: &Path, content: &[u8]) -> io::Result<()> {
 }
 
 /// Sets the former files aside, last first, then puts the new ones in their places.
-fn put_in_place(staging: &Path, dir: &Path) -> Result<(), RecordError> {
+fn put_in_place(names: &[&str], staging: &Path, dir: &Path) -> Result<(), RecordError> {
     let mut aside = Vec::new();
-    for name in NAMES.iter().rev() {
+    for name in names.iter().rev() {
         let place = dir.join(name);
         let Ok(former) = place.symlink_metadata() else {
             continue;
@@ -123,10 +130,10 @@ fn put_in_place(staging: &Path, dir: &Path) -> Result<(), RecordError> {
         }
         aside.push(*name);
     }
-    for name in NAMES {
+    for name in names {
         if let Err(source) = fs::rename(staging.join(name), dir.join(name)) {
             // The new ones that are in place already are not to stay without the others.
-            for new in NAMES.iter().take_while(|new| **new != name) {
+            for new in names.iter().take_while(|new| *new != name) {
                 let _ = fs::remove_file(dir.join(new));
             }
             put_back(&aside, staging, dir);

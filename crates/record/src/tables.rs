@@ -8,7 +8,7 @@ use crate::numbers::{beside_limit, power, significant};
 
 /// How a column stands.
 #[derive(Clone, Copy, PartialEq)]
-enum Side {
+pub(crate) enum Side {
     Left,
     Right,
 }
@@ -198,7 +198,7 @@ fn ledger_lines(ledger: &Ledger, whose: &str) -> String {
 }
 
 /// Rows of cells in columns that line up, two spaces apart.
-fn aligned(rows: &[Vec<String>], sides: &[Side]) -> String {
+pub(crate) fn aligned(rows: &[Vec<String>], sides: &[Side]) -> String {
     let rows: Vec<Vec<String>> =
         rows.iter().map(|row| row.iter().map(|cell| printable(cell)).collect()).collect();
     let width =
@@ -220,7 +220,7 @@ fn aligned(rows: &[Vec<String>], sides: &[Side]) -> String {
 }
 
 /// Without control characters: a name in a file is not to move the cursor.
-fn printable(text: &str) -> String {
+pub(crate) fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 

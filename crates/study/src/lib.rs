@@ -1,10 +1,13 @@
 //! Sizing: what a task asks of the base, and which actuators can give it.
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
+#![allow(clippy::format_push_string, reason = "`text += &format!(…)` reads as what it does")]
 
 mod capability;
 mod demand;
 mod envelope;
+mod findings;
 mod judgement;
+mod outcome;
 
 pub use capability::{Capability, Reach};
 pub use demand::Demand;
@@ -12,4 +15,8 @@ pub use envelope::{
     Facet, Mesh, Piece, Solid, SteeringPath, SteeringReach, ThrusterTorque, facets, first_outside,
     least_flow, singular_surfaces, steering_path, steering_reach, thruster_torque,
 };
+pub use findings::findings;
 pub use judgement::{Answer, Both, Judgement, judge};
+pub use outcome::{
+    Finding, Flown, HandCheck, SetCard, SetKind, SetVerdict, StudyOutcome, TaskOutcome,
+};

@@ -1,0 +1,280 @@
+//! The momentum that a set of actuators can hold, as a solid seen from outside and cut open, with the
+//! singular surfaces inside and what tasks ask for on top.
+
+use wrasse_spatial::{Real, Vec3, vec3};
+use wrasse_study::Mesh;
+
+use crate::drawing::{marks, step};
+use crate::markup::escaped;
+use crate::numbers::significant;
+
+/// Half the width of a view (SVG units; ten to a pixel, so that figures are whole).
+const HALF: f64 = 2300.0;
+/// How far the surfaces reach from the middle of a view (SVG units).
+const REACH: f64 = 1650.0;
+/// Azimuth and elevation of the eye (rad).
+const EYE: [f64; 2] = [-0.95, 0.42];
+/// Shades from away from the light to facing it.
+const SHADES: usize = 4;
+
+/// A line through momentum space, with its name.
+#[derive(Debug, Clone)]
+pub(crate) struct MomentumPath<'a> {
+    pub(crate) name: &'a str,
+    /// Base axes (N·m·s).
+    pub(crate) points: &'a [Vec3<f64>],
+}
+
+/// Where the eye stands, and the scale.
+struct View {
+    right: Vec3<f64>,
+    up: Vec3<f64>,
+    towards: Vec3<f64>,
+    scale: f64,
+}
+
+impl View {
+    fn new(size: f64) -> Self {
+        let [(sin_a, cos_a), (sin_e, cos_e)] = EYE.map(Real::sin_cos);
+        let towards = vec3(cos_e * cos_a, cos_e * sin_a, sin_e);
+        let right = vec3(-sin_a, cos_a, 0.0);
+        Self { right, up: towards.cross(right), towards, scale: REACH / size }
+    }
+    /// Where a point is on the sheet, y downwards.
+    fn place(&self, p: Vec3<f64>) -> [f64; 2] {
+        [HALF + self.scale * p.dot(self.right), HALF - self.scale * p.dot(self.up)]
+    }
+    /// Whether a point is on the eye's side of the upright plane through the middle.
+    fn is_cut_away(&self, p: Vec3<f64>) -> bool {
+        p.dot(vec3(self.towards.x, self.towards.y, 0.0)) > 0.0
+    }
+}
+
+/// A face ready to be drawn.
+struct Sheet {
+    depth: f64,
+    class: String,
+    path: String,
+}
+
+/// The solid from outside, then cut open once for each kind of singular surface, as a figure. The first mesh is the outer surface, the others lie inside.
+pub(crate) fn envelope_figure(
+    title: &str,
+    meshes: &[Mesh],
+    paths: &[MomentumPath<'_>],
+) -> Option<String> {
+    let reached = meshes.iter().flat_map(|mesh| &mesh.points).map(|p| p.norm());
+    let size = reached.fold(0.0, f64::max);
+    if size <= 0.0 || !size.is_finite() {
+        return None;
+    }
+    let view = View::new(size);
+    let most = meshes.iter().map(|mesh| mesh.against).max().unwrap_or(0);
+    let looks = (0..=most).map(|against| match against {
+        0 => (String::from("From outside"), against),
+        1 => (String::from("Cut open: one rotor against the rest"), against),
+        _ => (format!("Cut open: {against} rotors against the rest"), against),
+    });
+    let views = looks.map(|(name, against)| {
+        let shown: Vec<_> =
+            meshes.iter().filter(|m| m.against == 0 || m.against == against).collect();
+        format!(
+            "<div><p class=\"view\">{name}</p>\n{}</div>\n",
+            svg(&view, &name, &shown, paths, size)
+        )
+    });
+    let views: Vec<_> = views.collect();
+    Some(format!(
+        "<figure class=\"envelope\"><div class=\"views\">{}</div>\n<figcaption>{} {}</figcaption></figure>\n",
+        views.concat(),
+        escaped(title),
+        legend(meshes, paths)
+    ))
+}
+
+/// What the colours are.
+fn legend(meshes: &[Mesh], paths: &[MomentumPath<'_>]) -> String {
+    let mut keys = vec![(String::from("outer"), String::from("what can be held at most"))];
+    for against in [1, 2, 3, 4] {
+        if meshes.iter().any(|mesh| mesh.against == against) {
+            let rotors = if against == 1 { "one rotor" } else { "rotors" };
+            let count = if against == 1 { String::new() } else { format!("{against} ") };
+            let text = format!("singular inside, {count}{rotors} against the rest");
+            keys.push((format!("inner-{against}"), text));
+        }
+    }
+    for (k, path) in paths.iter().enumerate() {
+        keys.push((format!("asked line-{}", 1 + k % 8), format!("asked for: {}", path.name)));
+    }
+    let keys = keys
+        .iter()
+        .map(|(class, text)| format!("<span class=\"swatch {class}\">{}</span> ", escaped(text)));
+    keys.collect()
+}
+
+fn svg(view: &View, name: &str, meshes: &[&Mesh], paths: &[MomentumPath<'_>], size: f64) -> String {
+    // Only what lies inside needs the cut.
+    let open = meshes.iter().any(|mesh| mesh.against > 0);
+    let mut sheets: Vec<Sheet> = meshes.iter().flat_map(|mesh| sheets(view, mesh, open)).collect();
+    // Farthest first; equal depths stay in the order of the meshes.
+    sheets.sort_by(|a, b| a.depth.total_cmp(&b.depth));
+    let side = 2.0 * HALF;
+    let mut svg = format!(
+        "<svg viewBox=\"0 0 {side} {side}\" role=\"img\" aria-label=\"{}: momentum that can be held\">\n",
+        escaped(name)
+    );
+    svg += &axes(view, size);
+    svg += &joined(&sheets);
+    for (k, path) in paths.iter().enumerate() {
+        svg += &asked(view, path, k);
+    }
+    svg + "</svg>"
+}
+
+/// Faces of a surface.
+fn sheets<'a>(view: &'a View, mesh: &'a Mesh, open: bool) -> impl Iterator<Item = Sheet> + 'a {
+    mesh.faces.iter().filter_map(move |face| {
+        let corners: Vec<_> = face.iter().filter_map(|k| mesh.points.get(*k).copied()).collect();
+        let middle =
+            corners.iter().fold(Vec3::zero(), |a, p| a + *p) * (1.0 / corners.len() as f64);
+        if open && view.is_cut_away(middle) {
+            return None;
+        }
+        let shade = shade(&corners);
+        let class = match mesh.against {
+            0 => format!("outer s{shade}"),
+            against => format!("inner-{} s{shade}", against.min(4)),
+        };
+        Some(Sheet { depth: middle.dot(view.towards), class, path: outline(view, &corners) })
+    })
+}
+
+/// How a face stands to the light, which comes from above and the left of the eye.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 3")]
+fn shade(corners: &[Vec3<f64>]) -> usize {
+    let [a, b, c, d] = match corners {
+        [a, b, c] => [a, b, c, a],
+        [a, b, c, d, ..] => [a, b, c, d],
+        _ => return 0,
+    };
+    let normal = (*c - *a).cross(*d - *b);
+    let light = vec3(0.2, -0.75, 0.63);
+    let facing = normal.dot(light).abs() / normal.norm().max(1e-300);
+    ((facing * SHADES as f64) as usize).min(SHADES - 1)
+}
+
+/// A closed line in whole units, each corner seen from the one before it.
+#[allow(clippy::cast_possible_truncation, reason = "within the sheet")]
+fn outline(view: &View, corners: &[Vec3<f64>]) -> String {
+    let mut path = String::new();
+    let mut from = [0_i64; 2];
+    for (k, corner) in corners.iter().enumerate() {
+        let at = view.place(*corner).map(|x| x.round() as i64);
+        let letter = if k == 0 { 'M' } else { 'l' };
+        path += &format!("{letter}{} {}", at[0] - from[0], at[1] - from[1]);
+        from = at;
+    }
+    path + "z"
+}
+
+/// Neighbours in the order of drawing that look alike become one path.
+fn joined(sheets: &[Sheet]) -> String {
+    let mut svg = String::new();
+    for group in sheets.chunk_by(|a, b| a.class == b.class) {
+        let paths: String = group.iter().map(|sheet| sheet.path.as_str()).collect();
+        svg += &format!("<path class=\"{}\" d=\"{paths}\"/>\n", group[0].class);
+    }
+    svg
+}
+
+/// The three axes from end to end, with their figures.
+fn axes(view: &View, size: f64) -> String {
+    let mut svg = String::new();
+    let far = 1.16 * size;
+    let step = step(3.2 * size);
+    let units = [vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0)];
+    for (name, unit) in ["x", "y", "z"].iter().zip(units) {
+        let ([x, y], [to_x, to_y]) = (view.place(unit * -far), view.place(unit * far));
+        svg += &format!("<path class=\"axle\" d=\"M{x:.0} {y:.0}L{to_x:.0} {to_y:.0}\"/>");
+        let [x, y] = view.place(unit * (1.3 * size));
+        svg += &format!(
+            "<text class=\"axis\" x=\"{x:.0}\" y=\"{y:.0}\" text-anchor=\"middle\">{name} (N·m·s)</text>\n"
+        );
+        for value in marks(-far, far, step).filter(|value| value.abs() > 0.5 * step) {
+            let [x, y] = view.place(unit * value);
+            svg += &format!(
+                "<circle class=\"tick\" cx=\"{x:.0}\" cy=\"{y:.0}\" r=\"14\"/>\
+                 <text class=\"figure\" x=\"{:.0}\" y=\"{:.0}\">{}</text>\n",
+                x + 30.0,
+                y + 100.0,
+                significant(value)
+            );
+        }
+    }
+    svg
+}
+
+/// What a task asks for, as a line from its first to its last point.
+fn asked(view: &View, path: &MomentumPath<'_>, k: usize) -> String {
+    let line = 1 + k % 8;
+    let points: Vec<_> = path.points.iter().map(|p| view.place(*p)).collect();
+    let Some([x, y]) = points.last() else { return String::new() };
+    let text: Vec<_> = points.iter().map(|[x, y]| format!("{x:.0},{y:.0}")).collect();
+    format!(
+        "<polyline class=\"asked line-{line}\" points=\"{}\"/>\
+         <circle class=\"asked line-{line}\" cx=\"{x:.0}\" cy=\"{y:.0}\" r=\"30\"/>\n",
+        text.join(" ")
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wrasse_hardware::ControlMomentGyro;
+    use wrasse_study::singular_surfaces;
+
+    fn pyramid() -> Vec<ControlMomentGyro<f64>> {
+        let (s, c) = (0.8, 0.6);
+        let sides = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
+        let gyro = |(x, y): (f64, f64)| ControlMomentGyro {
+            gimbal_axis_B: vec3(s * x, s * y, c),
+            spin_axis_B: vec3(-y, x, 0.0),
+            momentum: 75.0,
+            ..Default::default()
+        };
+        sides.into_iter().map(gyro).collect()
+    }
+
+    #[test]
+    fn the_figure_stays_on_its_sheet_and_the_cut_shows_less_of_the_outer_surface() {
+        let meshes = singular_surfaces(&pyramid(), 12);
+        let points = [Vec3::zero(), vec3(90.0, 0.0, 0.0)];
+        let path = MomentumPath { name: "a <task>", points: &points };
+        let figure = envelope_figure("Four gyros", &meshes, &[path]).unwrap();
+        assert!(figure.contains("a &lt;task&gt;") && !figure.contains("NaN"));
+        let views: Vec<_> = figure.split("<svg").skip(1).collect();
+        let outer = |view: &str| view.split("class=\"outer").skip(1).map(faces).sum::<usize>();
+        let (whole, cut) = (outer(views[0]), outer(views[1]));
+        assert_eq!(whole, meshes[0].faces.len());
+        // Half of it, but for the faces that the plane crosses.
+        assert!(cut * 5 < whole * 3 && cut * 5 > whole * 2, "{cut} of {whole}");
+    }
+
+    fn faces(group: &str) -> usize {
+        group.split("/>").next().unwrap_or_default().matches('z').count()
+    }
+
+    #[test]
+    fn nothing_to_hold_is_nothing_to_draw() {
+        assert!(envelope_figure("none", &[Mesh::default()], &[]).is_none());
+    }
+
+    #[test]
+    fn x_goes_to_the_right_and_towards_the_eye_and_z_goes_up() {
+        let view = View::new(1.0);
+        let [middle, x, z] = [Vec3::zero(), vec3(1.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0)];
+        assert!(view.place(x)[0] > view.place(middle)[0]);
+        assert!(view.place(z)[1] < view.place(middle)[1]);
+        assert!(view.is_cut_away(x) && !view.is_cut_away(-x));
+    }
+}

@@ -1,0 +1,320 @@
+//! What follows from the verdicts for the claim that wheels do not do and gyros are needed. Every
+//! sentence counts verdicts; none is written beforehand.
+
+use crate::judgement::Answer;
+use crate::outcome::{Finding, SetCard, SetKind, SetVerdict, TaskOutcome};
+
+/// The findings, in a fixed order; what does not occur is left out.
+pub fn findings(sets: &[SetCard], tasks: &[TaskOutcome]) -> Vec<Finding> {
+    let all = Verdicts { sets, tasks };
+    let parts = [
+        all.only_gyros(),
+        all.wheels_suffice(),
+        all.not_even_gyros(),
+        all.torque_decides(),
+        all.steering_decides(),
+        all.duration_decides(),
+        all.thrusters(),
+        all.tool_error_decides(),
+    ];
+    parts.into_iter().flatten().collect()
+}
+
+/// The table of verdicts.
+struct Verdicts<'a> {
+    sets: &'a [SetCard],
+    tasks: &'a [TaskOutcome],
+}
+
+fn is_no_worse(verdict: &SetVerdict, answer: Answer) -> bool {
+    verdict.suffices <= answer
+}
+
+impl<'a> Verdicts<'a> {
+    /// Verdicts of sets of a kind on a task.
+    fn of(&self, task: &'a TaskOutcome, kind: SetKind) -> impl Iterator<Item = &'a SetVerdict> {
+        let kinds = self.sets.iter().map(move |set| set.kind == kind);
+        task.verdicts.iter().zip(kinds.collect::<Vec<_>>()).filter(|(_, is)| *is).map(|(v, _)| v)
+    }
+    fn some(&self, task: &'a TaskOutcome, kind: SetKind, answer: Answer) -> bool {
+        self.of(task, kind).any(|verdict| is_no_worse(verdict, answer))
+    }
+    /// Tasks with a demand that fulfil a condition.
+    fn that(&self, holds: impl Fn(&'a TaskOutcome) -> bool) -> Vec<&'a TaskOutcome> {
+        self.tasks.iter().filter(|t| t.unflown.is_none() && holds(t)).collect()
+    }
+    fn asked(&self) -> usize {
+        self.that(|_| true).len()
+    }
+    fn has(&self, kind: SetKind) -> bool {
+        self.sets.iter().any(|set| set.kind == kind)
+    }
+    /// The claim holds: a set of gyros does, no set of wheels.
+    fn only_gyros(&self) -> Option<Finding> {
+        let wheels_fail = |t| !self.some(t, SetKind::Wheels, Answer::WithSteering);
+        let tasks =
+            self.that(|t| wheels_fail(t) && self.some(t, SetKind::Gyros, Answer::WithSteering));
+        let (all, count) = (self.asked(), tasks.len());
+        let text = format!(
+            "In {count} of {all} tasks a set of gyros suffices and no set of wheels does: there the claim holds."
+        );
+        let both = self.has(SetKind::Wheels) && self.has(SetKind::Gyros);
+        both.then(|| finding("where the claim holds", text, &tasks))
+    }
+    /// The claim is not needed: wheels do.
+    fn wheels_suffice(&self) -> Option<Finding> {
+        let tasks = self.that(|t| self.some(t, SetKind::Wheels, Answer::Yes));
+        let text = format!(
+            "In {} of {} tasks a set of wheels suffices, so gyros are not needed.",
+            tasks.len(),
+            self.asked()
+        );
+        self.has(SetKind::Wheels).then(|| finding("where it does not", text, &tasks))
+    }
+    /// The claim is not enough: no gyros do either.
+    fn not_even_gyros(&self) -> Option<Finding> {
+        let tasks = self.that(|t| !self.some(t, SetKind::Gyros, Answer::WithSteering));
+        let worst = tasks.iter().map(|t| t.peak_torque_nm).fold(0.0, f64::max);
+        let text = format!(
+            "In {} of {} tasks no set of gyros suffices either (up to {worst:.0} N·m): the load path has \
+             to be closed by a grapple, the line of action moved towards the centre of mass, or thrusters \
+             used.",
+            tasks.len(),
+            self.asked()
+        );
+        self.has(SetKind::Gyros)
+            .then(|| finding("where gyros are not enough", text, &tasks))
+            .filter(|_| !tasks.is_empty())
+    }
+    /// Wheels that hold the momentum but cannot give the torque: a slower motion is a remedy.
+    fn torque_decides(&self) -> Option<Finding> {
+        let held = |v: &SetVerdict| v.momentum == Answer::Yes && v.torque == Answer::No;
+        let tasks = self.that(|t| self.of(t, SetKind::Wheels).any(held));
+        let factors = tasks.iter().flat_map(|t| self.of(t, SetKind::Wheels).filter(|v| held(v)));
+        let factors: Vec<f64> = factors.filter_map(|v| v.slower.plain).collect();
+        let low = factors.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = factors.iter().copied().fold(0.0, f64::max);
+        let remedy = if factors.is_empty() {
+            String::new()
+        } else {
+            format!(
+                " Done {low:.1} to {high:.0} times more slowly, the vehicle's own motions are within them."
+            )
+        };
+        let text = format!(
+            "In {} of {} tasks a set of wheels can hold the momentum and lacks only the torque.{remedy}",
+            tasks.len(),
+            self.asked()
+        );
+        (!tasks.is_empty()).then(|| finding("torque decides", text, &tasks))
+    }
+    /// Gyros that suffice only if they are steered past the inner singular surfaces.
+    fn steering_decides(&self) -> Option<Finding> {
+        let needs = |v: &SetVerdict| v.suffices == Answer::WithSteering;
+        let tasks = self.that(|t| self.of(t, SetKind::Gyros).any(needs));
+        let pairs: usize =
+            tasks.iter().map(|t| self.of(t, SetKind::Gyros).filter(|v| needs(v)).count()).sum();
+        let text = format!(
+            "{pairs} times a set of gyros suffices only with steering that starts from good gimbal \
+             angles, or avoids or escapes singularities: the outer surface promises more than the \
+             pseudo-inverse keeps."
+        );
+        (!tasks.is_empty()).then(|| finding("steering decides", text, &tasks))
+    }
+    /// Tasks that end under load: how long each set lasts.
+    fn duration_decides(&self) -> Option<Finding> {
+        let tasks = self.that(|t| t.gathered_nm.is_some());
+        let lasting = |kind| {
+            let times =
+                tasks.iter().flat_map(|t| self.of(t, kind)).filter(|v| v.torque != Answer::No);
+            let times: Vec<f64> = times.filter_map(|v| v.saturates_s.best).collect();
+            let low = times.iter().copied().fold(f64::INFINITY, f64::min);
+            let high = times.iter().copied().fold(0.0, f64::max);
+            (!times.is_empty()).then_some((low, high))
+        };
+        let mut text = format!(
+            "{} of {} tasks end under load and gather momentum on and on.",
+            tasks.len(),
+            self.asked()
+        );
+        for (kind, name) in [(SetKind::Wheels, "wheels"), (SetKind::Gyros, "gyros")] {
+            match lasting(kind) {
+                Some((low, high)) => {
+                    text += &format!(
+                        " Sets of {name} that can give the torque are full after {low:.1} to {high:.0} s."
+                    );
+                }
+                None if self.has(kind) => {
+                    text += &format!(" No set of {name} can give the torque.");
+                }
+                None => {}
+            }
+        }
+        (!tasks.is_empty()).then(|| finding("duration decides", text, &tasks))
+    }
+    /// Thrusters: what they can do, and what it costs.
+    fn thrusters(&self) -> Option<Finding> {
+        let tasks = self.that(|t| self.some(t, SetKind::Thrusters, Answer::Yes));
+        let fuel = tasks.iter().flat_map(|t| self.of(t, SetKind::Thrusters));
+        let fuel: Vec<f64> = fuel.filter_map(|v| v.fuel_kg).collect();
+        let most = fuel.iter().copied().fold(0.0, f64::max);
+        let text = format!(
+            "In {} of {} tasks a set of thrusters can give the torque, for up to {:.0} g of propellant a \
+             time; momentum leaves with the exhaust, so nothing saturates.",
+            tasks.len(),
+            self.asked(),
+            1e3 * most
+        );
+        self.has(SetKind::Thrusters).then(|| finding("thrusters", text, &tasks))
+    }
+    /// Closed loop: the set that suffices by its envelope and misses with the tool, and the other way.
+    fn tool_error_decides(&self) -> Option<Finding> {
+        let flown = self.that(|t| t.verdicts.iter().any(|v| v.flown.is_some()));
+        let mut text = String::new();
+        for (kind, name) in [
+            (SetKind::Wheels, "wheels"),
+            (SetKind::Gyros, "gyros"),
+            (SetKind::Thrusters, "thrusters"),
+        ] {
+            let errors =
+                flown.iter().flat_map(|t| self.of(t, kind)).filter_map(|v| v.flown.as_ref());
+            let errors: Vec<f64> = errors.map(|flown| flown.tool_error_mm).collect();
+            let low = errors.iter().copied().fold(f64::INFINITY, f64::min);
+            let high = errors.iter().copied().fold(0.0, f64::max);
+            if !errors.is_empty() {
+                text += &format!(" {name}: {low:.2} to {high:.0} mm;");
+            }
+        }
+        if text.is_empty() {
+            return None;
+        }
+        let reference = flown.iter().map(|t| t.tool_error_mm).fold(0.0, f64::max);
+        let text = format!(
+            "Flown in closed loop, the tool errs by:{text} the reference by up to {reference:.2} mm."
+        );
+        Some(finding("tool error decides", text, &flown))
+    }
+}
+
+fn finding(about: &str, text: String, tasks: &[&TaskOutcome]) -> Finding {
+    Finding { about: about.into(), text, tasks: tasks.iter().map(|t| t.name.clone()).collect() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::judgement::Both;
+    use crate::outcome::Flown;
+
+    fn set(name: &str, kind: SetKind) -> SetCard {
+        SetCard {
+            name: name.into(),
+            kind,
+            mass_kg: None,
+            power_w: None,
+            propellant_kg: None,
+            torque_nm: [None; 3],
+            momentum_nms: [None; 3],
+            momentum_everywhere_nms: None,
+            provenance: vec![],
+            surfaces: vec![],
+        }
+    }
+
+    fn verdict(set: &str, torque: Answer, momentum: Answer) -> SetVerdict {
+        let none = Both { plain: None, best: None };
+        SetVerdict {
+            set: set.into(),
+            suffices: torque.max(momentum),
+            torque,
+            momentum,
+            torque_load: none,
+            torque_nm: none,
+            momentum_nms: none,
+            saturates_s: none,
+            slower: none,
+            fuel_kg: None,
+            fuel_in_place_kg: None,
+            flown: None,
+        }
+    }
+
+    fn task(name: &str, verdicts: Vec<SetVerdict>) -> TaskOutcome {
+        TaskOutcome {
+            name: name.into(),
+            labels: vec![],
+            unflown: None,
+            own_motion: true,
+            duration_s: 10.0,
+            peak_torque_nm: 80.0,
+            peak_torque_by_axis_nm: [0.0, 0.0, 80.0],
+            peak_momentum_nms: 70.0,
+            gathered_nm: None,
+            by_hand: None,
+            tool_error_mm: 0.1,
+            verdicts,
+            demand: crate::demand::Demand::default(),
+        }
+    }
+
+    fn text<'a>(all: &'a [Finding], about: &str) -> Option<&'a Finding> {
+        all.iter().find(|finding| finding.about == about)
+    }
+
+    const SETS: [(&str, SetKind); 2] = [("wheels", SetKind::Wheels), ("gyros", SetKind::Gyros)];
+
+    /// Three tasks: only gyros do, wheels do, nothing does.
+    #[test]
+    fn the_claim_is_counted_where_it_holds_and_where_it_does_not() {
+        use Answer::{No, WithSteering, Yes};
+        let sets = SETS.map(|(name, kind)| set(name, kind));
+        let mut slow = verdict("wheels", No, Yes);
+        slow.slower.plain = Some(21.0);
+        let tasks = [
+            task("fast", vec![slow, verdict("gyros", Yes, WithSteering)]),
+            task("light", vec![verdict("wheels", Yes, Yes), verdict("gyros", Yes, Yes)]),
+            task("heavy", vec![verdict("wheels", No, No), verdict("gyros", No, Yes)]),
+        ];
+        let all = findings(&sets, &tasks);
+        let holds = text(&all, "where the claim holds").unwrap();
+        assert!(holds.text.starts_with("In 1 of 3 tasks") && holds.tasks == ["fast"]);
+        assert_eq!(text(&all, "where it does not").unwrap().tasks, ["light"]);
+        assert_eq!(text(&all, "where gyros are not enough").unwrap().tasks, ["heavy"]);
+        let torque = text(&all, "torque decides").unwrap();
+        assert!(torque.tasks == ["fast"] && torque.text.contains("21.0 to 21 times"), "{torque:?}");
+        assert_eq!(text(&all, "steering decides").unwrap().tasks, ["fast"]);
+        assert_eq!(text(&all, "duration decides"), None);
+        assert_eq!(text(&all, "thrusters"), None);
+    }
+
+    #[test]
+    fn what_was_flown_is_told_by_its_tool_error() {
+        let sets = SETS.map(|(name, kind)| set(name, kind));
+        let mut one = verdict("gyros", Answer::Yes, Answer::Yes);
+        one.flown = Some(Flown {
+            tool_error_mm: 0.4,
+            tool_error_at_end_mm: 0.1,
+            attitude_error_deg: 0.01,
+            propellant_kg: None,
+            requirements_hold: true,
+            ended: None,
+            limit: None,
+            closes: true,
+        });
+        let tasks = [task("fast", vec![verdict("wheels", Answer::No, Answer::Yes), one])];
+        let all = findings(&sets, &tasks);
+        let error = text(&all, "tool error decides").unwrap();
+        assert!(
+            error.text.contains("gyros: 0.40 to 0 mm") && !error.text.contains("wheels"),
+            "{error:?}"
+        );
+    }
+
+    #[test]
+    fn a_task_that_was_not_flown_counts_for_nothing() {
+        let sets = SETS.map(|(name, kind)| set(name, kind));
+        let unflown = TaskOutcome { unflown: Some("out of reach".into()), ..task("far", vec![]) };
+        let all = findings(&sets, &[unflown]);
+        assert!(text(&all, "where the claim holds").unwrap().text.starts_with("In 0 of 0"));
+    }
+}
