@@ -1,22 +1,23 @@
 //! The flight computer: which phase, where the tool should be, what the actuators are told.
 
-use crate::attitude_control::attitude_torque;
+use crate::base_control::{BaseControl, BaseControlSetup};
 use crate::computed_torque::computed_torque;
 use crate::door::{Axes, Command, Grip, Sensed};
-use crate::feedforward::feedforward_torque;
-use crate::law::{Feedforward, Measurement, Tuning};
+use crate::law::{Measurement, Tuning};
+use crate::navigation::{Navigation, NavigationSetup};
 use crate::phase::{Held, JointTarget, Path, Phase};
 use crate::resolved_motion::{
     Assignment, Belief, JointUse, Resolved, ResolvedMotion, WantedMotion, answered_motion,
     answered_twist, resolved_motion, task_jacobian,
 };
 use crate::sequence::{BadPhase, NoWay, Sequence};
+use crate::steering::{Steered, Unit};
 use crate::tool_pose::{Unreachable, joints_for_tool};
 use crate::trajectory::ToolMotion;
 use wrasse_dynamics::{Frame, Robot, State, kinematics, mass_matrix, momentum};
-use wrasse_hardware::{JointLimits, SetPoint, SetPointMotion};
+use wrasse_hardware::{ActuatorReadings, JointLimits, SetPoint, SetPointMotion};
 use wrasse_spatial::{
-    Dual, Pose, Quat, Scalar, SpatialMomentum, SpatialVelocity, Sym3, Vec3, turned_by,
+    Dual, Pose, Quat, Scalar, SpatialInertia, SpatialMomentum, SpatialVelocity, Vec3, turned_by,
 };
 
 /// How a flight computer is set up.
@@ -26,24 +27,26 @@ pub struct Setup<T, const J: usize> {
     pub assignment: Assignment<T>,
     /// How the joints may be used.
     pub joints: JointUse<T, J>,
-    /// What the attitude control is told of the arm.
-    pub feedforward: Feedforward,
+    /// How the base is controlled.
+    pub base: BaseControlSetup<T>,
+    /// What the sensors are.
+    pub navigation: NavigationSetup<T>,
     /// What the guidance measures.
     pub measurement: Measurement,
     /// Numbers of the laws.
     pub tuning: Tuning<T>,
     /// Limits of the joints.
     pub limits: [JointLimits<T>; J],
-    /// Attitude that the attitude control keeps.
-    pub quat_ND: Quat<T>,
 }
 
 /// What flies: one call per control period.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct FlightComputer<T, const J: usize> {
     setup: Setup<T, J>,
     robot: Robot<T, J>,
     dual_robot: Robot<Dual<T>, J>,
+    navigation: Navigation<T, J>,
+    base_control: BaseControl<T>,
     sequence: Sequence<T, J>,
     path: Path<T, J>,
     /// Whether the sensors were read once.
@@ -67,6 +70,8 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
             setup,
             robot: robot.cast(),
             dual_robot: robot.cast(),
+            navigation: Navigation::new(&setup.navigation),
+            base_control: BaseControl::new(setup.base),
             sequence: Sequence::new(phases),
             path: Path::Still(Held::Joints),
             started: false,
@@ -96,14 +101,15 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     /// # Errors
     /// If a phase begins whose numbers describe no motion.
     pub fn step(&mut self, sensed: &Sensed<T, J>) -> Result<Command<T, J>, BadPhase<T>> {
-        self.look(&sensed.state);
+        let period = self.setup.tuning.period;
+        let state = self.navigation.estimate(sensed, &self.motion.qddot, period);
+        self.look(&state);
         let mut grip = None;
         if self.sequence.is_over() {
             let begun = self.begin_next();
             let phase = self.sequence.number();
             grip = begun.map_err(|reason| BadPhase { phase, reason })?;
         }
-        let period = self.setup.tuning.period;
         let elapsed = self.sequence.tick();
         let (from, began) = (self.belief, self.motion);
         self.predict(period);
@@ -117,7 +123,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
                 acceleration: self.motion.qddot[j],
             };
         }
-        let mut command = self.command_between(&sensed.state, &next);
+        let mut command = self.command_between(&state, &sensed.actuators, &next);
         command.grip = grip;
         self.now = next;
         Ok(command)
@@ -328,8 +334,13 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     }
 
     /// What the actuators are told between two sets of set-points.
-    fn command_between(&self, sensed: &State<T, J>, next: &[SetPoint<T>; J]) -> Command<T, J> {
-        let tuning = &self.setup.tuning;
+    fn command_between(
+        &mut self,
+        sensed: &State<T, J>,
+        readings: &ActuatorReadings<T>,
+        next: &[SetPoint<T>; J],
+    ) -> Command<T, J> {
+        let tuning = self.setup.tuning;
         let half = T::from_f64(0.5);
         // Torques are constant over the period: those of its middle are right on average.
         let (mut middle, mut ahead) = (self.now, *sensed);
@@ -343,27 +354,22 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
             ahead.v[j] += gain;
         }
         let coasting = matches!(self.path, Path::Still(Held::Nothing));
-        let (mut effort, attitude_torque_B) = if coasting {
-            ([T::zero(); J], Vec3::zero())
+        let (effort, (attitude_torque_B, steered)) = if coasting {
+            ([T::zero(); J], (Vec3::zero(), Steered::nothing()))
         } else {
-            let law = self.setup.assignment.law;
+            let (law, robot) = (self.setup.assignment.law, &self.robot);
+            let M_B = self.locked_inertia();
             (
-                computed_torque(&self.robot, law, tuning, &ahead, &middle, &acceleration),
-                self.attitude_torque(sensed, &middle),
+                computed_torque(robot, law, &tuning, &ahead, &middle, &acceleration),
+                self.base_control.command(robot, &tuning, &M_B, sensed, &middle, readings),
             )
         };
-        // A drive that saturated alone would let the others throw the arm off its way.
-        let mut share = T::one();
-        for j in self.robot.joints() {
-            if let Some(limit) = self.setup.limits[j].effort {
-                share = share.min(limit / limit.max(effort[j].abs()));
-            }
-        }
-        effort = effort.map(|tau| tau * share);
         Command {
             set_points: *next,
-            effort,
+            effort: self.within_limits(effort),
             attitude_torque_B,
+            actuators: steered.command,
+            steering: steered.report,
             grip: None,
             phase: self.sequence.number(),
             reference: self.reference,
@@ -371,18 +377,32 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         }
     }
 
-    fn attitude_torque(&self, sensed: &State<T, J>, middle: &[SetPoint<T>; J]) -> Vec3<T> {
-        let ahead = feedforward_torque(&self.robot, self.setup.feedforward, middle);
-        let quat_NB = Quat::from_matrix(&sensed.X_NB.rotation);
-        let w_NB_B = sensed.V_NB_B.angular;
-        let I = self.locked_inertia();
-        ahead + attitude_torque(&self.setup.tuning, &I, &quat_NB, w_NB_B, &self.setup.quat_ND)
+    /// Inertia of the whole system with joints locked, as it is believed to be.
+    fn locked_inertia(&self) -> SpatialInertia<T> {
+        let state = State { q: self.belief.q, ..State::default() };
+        mass_matrix(&kinematics(&self.robot, &state)).M_bb
     }
 
-    /// Inertia of the whole system about its centre of mass, joints locked, base axes (kg·m²).
-    fn locked_inertia(&self) -> Sym3<T> {
-        let state = State { q: self.belief.q, ..State::default() };
-        mass_matrix(&kinematics(&self.robot, &state)).M_bb.central()
+    /// All torques scaled so that none passes its limit: a drive that saturated alone would let the
+    /// others throw the arm off its way.
+    fn within_limits(&self, effort: [T; J]) -> [T; J] {
+        let mut share = T::one();
+        for j in self.robot.joints() {
+            if let Some(limit) = self.setup.limits[j].effort {
+                share = share.min(limit / limit.max(effort[j].abs()));
+            }
+        }
+        effort.map(|tau| tau * share)
+    }
+
+    /// Do without a unit of the base's equipment from now on.
+    pub fn isolate(&mut self, unit: Unit) {
+        self.base_control.isolate(unit);
+    }
+
+    /// What the navigation makes of gyro and star tracker, if it has them.
+    pub fn navigation(&self) -> &Navigation<T, J> {
+        &self.navigation
     }
 
     /// The robot has taken hold of something, or let go: what it is from now on.

@@ -1,15 +1,58 @@
 //! The door between what flies and the rest: plain data in, plain data out, once per control period.
 
+use crate::steering::SteeringReport;
 use crate::trajectory::ToolMotion;
 use wrasse_dynamics::State;
-use wrasse_hardware::SetPoint;
-use wrasse_spatial::Vec3;
+use wrasse_hardware::{ActuatorCommand, ActuatorReadings, SetPoint, TrackerReading};
+use wrasse_spatial::{Pose, Real, SpatialVelocity, Vec3};
 
 /// What the sensors say at the start of a control period.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sensed<T, const J: usize> {
-    /// Pose and twist of the base, joint positions and rates, as measured.
-    pub state: State<T, J>,
+    /// Of the base.
+    pub base: BaseReading<T>,
+    /// Of the joints.
+    pub joints: JointReading<T, J>,
+    /// What the actuators of the base say of themselves.
+    pub actuators: ActuatorReadings<T>,
+}
+
+/// What is known of the base.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum BaseReading<T> {
+    /// Pose and twist, by perfect sensors.
+    Known(Pose<T>, SpatialVelocity<T>),
+    /// What a gyro and a star tracker say, and a relative navigation whose errors do not matter here.
+    Felt {
+        /// Rate by the gyro, base axes (rad/s).
+        rate_B: Vec3<T>,
+        /// What the star tracker says, when it does.
+        tracker: Option<TrackerReading<T>>,
+        /// Origin of the base, inertial axes (m).
+        p_NB_N: Vec3<T>,
+        /// Its velocity, inertial axes (m/s).
+        v_NB_N: Vec3<T>,
+    },
+}
+
+/// What is known of the joints.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum JointReading<T, const J: usize> {
+    /// Positions (rad or m) and rates (rad/s or m/s), by perfect sensors.
+    Known([T; J], [T; J]),
+    /// Positions by encoders (rad or m).
+    Encoders([T; J]),
+}
+
+impl<T: Real, const J: usize> Sensed<T, J> {
+    /// What perfect sensors say of a state.
+    pub fn perfect(state: &State<T, J>, actuators: ActuatorReadings<T>) -> Self {
+        Self {
+            base: BaseReading::Known(state.X_NB, state.V_NB_B),
+            joints: JointReading::Known(state.q, state.v),
+            actuators,
+        }
+    }
 }
 
 /// What the actuators are told for the coming control period.
@@ -19,8 +62,13 @@ pub struct Command<T, const J: usize> {
     pub set_points: [SetPoint<T>; J],
     /// Torque (N·m) or force (N) of each joint over the period, by the computed-torque law.
     pub effort: [T; J],
-    /// Torque of the attitude actuator on the base over the period, base axes (N·m).
+    /// Torque that the base should feel over the period, base axes (N·m): what an ideal actuator is
+    /// told, and what the steering has to give.
     pub attitude_torque_B: Vec3<T>,
+    /// What wheels, gyros and thrusters are told.
+    pub actuators: ActuatorCommand<T>,
+    /// What the steering could do of what was wanted.
+    pub steering: SteeringReport<T>,
     /// What the grip should do now.
     pub grip: Option<Grip>,
     /// Number of the phase that this period belongs to; the number of phases when all are done.

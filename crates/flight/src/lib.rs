@@ -8,6 +8,7 @@ pub mod trajectory;
 
 mod attitude_control;
 mod attitude_estimator;
+mod base_control;
 mod computed_torque;
 mod computer;
 mod door;
@@ -15,6 +16,7 @@ mod error_covariance;
 mod feedforward;
 mod joint_estimator;
 mod law;
+mod navigation;
 mod phase;
 mod resolved_motion;
 mod sequence;
@@ -22,12 +24,14 @@ mod tool_pose;
 
 pub use attitude_control::attitude_torque;
 pub use attitude_estimator::{AttitudeEstimate, AttitudeEstimator, EstimatorSetup, TRACKER_MEMORY};
+pub use base_control::{BaseControlSetup, PositionHold};
 pub use computed_torque::computed_torque;
 pub use computer::{FlightComputer, Setup};
-pub use door::{Axes, Command, Grip, Sensed};
+pub use door::{Axes, BaseReading, Command, Grip, JointReading, Sensed};
 pub use feedforward::feedforward_torque;
 pub use joint_estimator::JointEstimator;
 pub use law::{ArmLaw, Feedforward, Measurement, Task, Tuning};
+pub use navigation::{Navigation, NavigationSetup};
 pub use phase::{Held, JointTarget, JointTiming, PHASES, Phase, Target, Timing};
 pub use resolved_motion::{
     Assignment, Belief, JointUse, Resolved, ResolvedMotion, WantedMotion, answered_motion,

@@ -1,17 +1,21 @@
 //! One case flown: the flight computer and the world, a control period at a time.
 
+use crate::applied_wrench::together;
 use crate::limits_passed::{Passed, limits_passed};
 use crate::mission::{Case, PayloadStart};
 use crate::observe::{Observation, Track, observe};
-use crate::outcome::{End, Event, EventKind, Ledger, Snapshot, Telemetry};
+use crate::outcome::{DemandSample, End, Event, EventKind, Snapshot, Telemetry};
 use crate::picture::snapshot;
 use crate::plan::{Plan, cannot_begin};
 use crate::quantity::Watch;
+use crate::read_base::Turning;
+use crate::saturations::{EquipmentLimits, at_limits, describe};
+use crate::sensing::Sensing;
 use crate::telemetry::Recorder;
 use wrasse_dynamics::{Payload, kinematics};
-use wrasse_flight::{Command, FlightComputer, Grip, Sensed};
+use wrasse_flight::{Command, FlightComputer, Grip};
 use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
-use wrasse_spatial::{Pose, Vec3};
+use wrasse_spatial::{Pose, Quat, Vec3};
 use wrasse_vehicle::JOINTS;
 use wrasse_world::{BaseAttitude, Drive, Equipment, Saturation, Stepper, World, WorldSetup};
 
@@ -24,8 +28,31 @@ pub(crate) struct Flown {
     pub(crate) events: Vec<Event>,
     pub(crate) telemetry: Telemetry,
     pub(crate) snapshots: Vec<Snapshot>,
+    pub(crate) demand: Vec<DemandSample>,
     /// The last thing seen.
     pub(crate) last: Option<Observation>,
+}
+
+/// Share of the wanted torque or force (and N·m, N) above which what is missing is told.
+const MISSED: f64 = 0.01;
+
+/// Share of the vehicle's mass whose loss as propellant the flight computer is told of.
+const NOTICED: f64 = 1e-4;
+
+/// Angle from which on the attitude counts as lost (rad): 5 deg, where a tool 1 m out is 9 cm off.
+const LOST: f64 = 0.0873;
+
+/// What the world is told of the wheels, gyros and thrusters of a case.
+fn equipment(case: &Case) -> Equipment {
+    if case.base == BaseAttitude::Held {
+        return Equipment::default();
+    }
+    Equipment {
+        actuators: case.equipment.actuators,
+        wheel_speed: case.equipment.wheel_speed,
+        gimbal_angle: case.equipment.gimbal_angle,
+        seed: case.seed,
+    }
 }
 
 /// A flight under way.
@@ -33,6 +60,17 @@ struct Flight<'a> {
     case: &'a Case,
     world: World<JOINTS>,
     computer: FlightComputer<f64, JOINTS>,
+    sensing: Sensing,
+    limits: EquipmentLimits,
+    /// For each failure: whether it has happened, and whether the computer was told.
+    failed: Vec<bool>,
+    told: Vec<bool>,
+    /// Propellant when the computer was last told (kg).
+    weighed: f64,
+    /// Whether the attitude was lost.
+    lost: bool,
+    /// Angle of the estimated attitude from the true one (rad); NaN where nothing is estimated.
+    estimate_error: f64,
     /// Number of each payload among the world's free bodies, while it floats.
     floating: Vec<Option<usize>>,
     /// Payloads in the grips, in the world's order.
@@ -58,9 +96,11 @@ pub(crate) fn fly(
     let (mut snapshots, mut last, mut phase) = (vec![], None, usize::MAX);
     let every = case.periods_per_sample();
     let mut end = End::Completed;
+    let mut demand = vec![];
     let tool = flight.world.pose(flight.computer.tool()).translation;
     snapshots.push(snapshot(case, &flight.world, &flight.payload_poses(), [tool; 2]));
     for period in 0..plan.periods {
+        flight.break_what_breaks();
         let command = match flight.command() {
             Ok(command) => command,
             Err(stop) => {
@@ -78,8 +118,11 @@ pub(crate) fn fly(
         }
         track.follow(&command, flight.computer.follows_tool());
         flight.world.update_ledger(&mut ledger);
-        let seen = observe(case, &flight.world, &flight.computer, &command, &track);
+        let error = flight.estimate_error;
+        let seen = observe(case, &flight.world, &flight.computer, &command, &track, error);
         flight.tell_limits(&seen);
+        flight.tell_missing(&command);
+        demand.push(DemandSample::of(flight.world.time(), &command, &seen));
         watch.add(phase, &seen.values);
         let done = period + 1;
         if done % every == 0 || done == plan.periods {
@@ -93,6 +136,9 @@ pub(crate) fn fly(
         last = Some(seen);
         progress(done as f64 / plan.periods as f64);
     }
+    for text in flight.limits.summary(case) {
+        flight.say(EventKind::Limit, text);
+    }
     Flown {
         end,
         watch,
@@ -100,6 +146,7 @@ pub(crate) fn fly(
         events: flight.events,
         telemetry: recorder.finish(),
         snapshots,
+        demand,
         last,
     }
 }
@@ -116,8 +163,11 @@ impl<'a> Flight<'a> {
         let mut world = World::new(&WorldSetup {
             robot: &case.vehicle.robot,
             limits: &case.vehicle.limits,
-            actuator: case.vehicle.attitude_actuator,
-            equipment: Equipment::default(),
+            actuator: match case.turning {
+                Turning::Ideal(actuator) => actuator,
+                Turning::Fitted => None,
+            },
+            equipment: equipment(case),
             base: case.base,
             stepper,
             start: case.start,
@@ -137,6 +187,9 @@ impl<'a> Flight<'a> {
             Drive::Follow(SetPointMotion::between(at(0.0), at(period), period))
         });
         world.command(&drives, Vec3::zero(), &ActuatorCommand::default(), period);
+        if !case.wrenches.is_empty() {
+            world.set_outside_wrench(together(case.wrenches.clone()));
+        }
         let floating = case.payloads.iter().enumerate().map(|(i, p)| match p.start {
             PayloadStart::Held(_) => None,
             PayloadStart::Free(..) => Some(world.add_free_body(case.free_body(i))),
@@ -153,6 +206,13 @@ impl<'a> Flight<'a> {
             case,
             computer: FlightComputer::new(case.setup, world.robot(), &case.flight_phases()),
             world,
+            sensing: Sensing::new(case),
+            limits: EquipmentLimits::default(),
+            failed: vec![false; case.failures.len()],
+            told: vec![false; case.failures.len()],
+            weighed: case.equipment.actuators.tank.map_or(0.0, |tank| tank.propellant),
+            lost: false,
+            estimate_error: f64::NAN,
             floating,
             holding,
             set_points: core::array::from_fn(start),
@@ -192,15 +252,22 @@ impl<'a> Flight<'a> {
         }
     }
 
-    /// What the flight computer says to what the sensors say. The sensors are perfect.
+    /// What the flight computer says to what the sensors say.
     fn command(&mut self) -> Result<Command<f64, JOINTS>, End> {
-        let sensed = Sensed { state: self.world.state() };
+        let sensed = self.sensing.read(&self.world, self.case.period());
+        let quat_NB = self.world.system().quat_NB;
         let time = self.world.time();
         // What the planning let pass, the truth may still refuse: by then things have moved.
-        self.computer.step(&sensed).map_err(|bad| match cannot_begin(self.case, &bad, time) {
-            End::Infeasible { phase, time_s, reason } => End::Stopped { phase, time_s, reason },
-            end => end,
-        })
+        let command = self.computer.step(&sensed).map_err(|bad| {
+            match cannot_begin(self.case, &bad, time) {
+                End::Infeasible { phase, time_s, reason } => End::Stopped { phase, time_s, reason },
+                end => end,
+            }
+        })?;
+        let estimate = self.computer.navigation().attitude_estimate();
+        self.estimate_error =
+            estimate.map_or(f64::NAN, |e| (e.quat_NB.conjugate() * quat_NB).log().norm());
+        Ok(command)
     }
 
     /// One control period of the world; why the flight ends, if it does.
@@ -218,20 +285,28 @@ impl<'a> Flight<'a> {
             }
         });
         self.set_points = command.set_points;
-        let cut = self.world.command(
-            &drives,
-            command.attitude_torque_B,
-            &ActuatorCommand::default(),
-            period,
-        );
+        let torque_B = match self.case.turning {
+            Turning::Ideal(_) => command.attitude_torque_B,
+            Turning::Fitted => Vec3::zero(),
+        };
+        let mut cut = self.world.command(&drives, torque_B, &command.actuators, period);
+        for limit in at_limits(self.case, command, &self.world.actuator_readings()) {
+            if !cut.contains(&limit) {
+                cut.push(limit);
+            }
+        }
+        let (missing, turned) = (command.steering.missing.torque.norm(), self.turned());
+        self.limits.note(&cut, self.world.time(), missing, turned);
         for saturation in cut {
             if !self.said.contains(&saturation) {
                 self.said.push(saturation);
-                let text = self.describe(saturation);
+                let text = describe(self.case, saturation);
                 self.say(EventKind::Limit, text);
             }
         }
-        let broken = self.world.advance(period).err()?;
+        let broken = self.world.advance(period).err();
+        self.weigh_propellant();
+        let broken = broken?;
         let quantity = match broken.joint {
             Some(j) => format!("position or rate of joint {}", self.case.joint_name(j)),
             None => broken.quantity,
@@ -242,42 +317,85 @@ impl<'a> Flight<'a> {
         })
     }
 
-    /// Say which limits the truth passes, each once in a phase.
-    fn tell_limits(&mut self, seen: &Observation) {
-        for (passed, text) in limits_passed(self.case, seen) {
-            if !self.said_passed.contains(&passed) {
-                self.said_passed.push(passed);
-                self.say(EventKind::Limit, text);
+    /// Tell the computer what it is made of once enough propellant has gone: its gauge says so.
+    fn weigh_propellant(&mut self) {
+        let left = self.world.actuator_readings().propellant;
+        if (self.weighed - left).abs() > NOTICED * self.world.robot().mass() {
+            self.weighed = left;
+            self.computer.robot_changed(self.world.robot());
+        }
+    }
+
+    /// Angle of the base from the attitude that it began with (rad).
+    fn turned(&self) -> f64 {
+        let start = Quat::from_matrix(&self.case.start.X_NB.rotation);
+        (start.conjugate() * self.world.system().quat_NB).log().norm()
+    }
+
+    /// Let units fail whose time has come, and tell the computer of those that it is told of.
+    fn break_what_breaks(&mut self) {
+        // To within the rounding of a sum of periods.
+        let now = self.world.time() + 1e-9;
+        let case = self.case;
+        for (i, failure) in case.failures.iter().enumerate() {
+            let due = |at: f64, already: bool| !already && at <= now;
+            if due(failure.at, self.failed[i]) {
+                self.failed[i] = true;
+                self.world.fail(failure.breaks);
+                self.say(EventKind::Failure, format!("{} fails: {}", failure.name, failure.how));
+            }
+            if due(failure.told_at.unwrap_or(f64::INFINITY), self.told[i]) {
+                self.told[i] = true;
+                self.computer.isolate(failure.unit);
+                let text = format!("the flight computer is told to do without {}", failure.name);
+                self.say(EventKind::Failure, text);
             }
         }
     }
 
-    fn describe(&self, saturation: Saturation) -> String {
-        let axis = |i: usize| ["x", "y", "z"][i.min(2)];
-        match saturation {
-            Saturation::JointEffort(j) => {
-                let limit = self.case.vehicle.limits[j].effort.unwrap_or(f64::NAN);
-                let limit = self.case.effort_text(j, limit);
-                format!("drive of joint {} at its limit of {limit}", self.case.joint_name(j))
+    /// Say once in a phase that torque or force is missing, and once that the attitude is lost.
+    fn tell_missing(&mut self, command: &Command<f64, JOINTS>) {
+        let (wanted, missing) = (command.steering.wanted, command.steering.missing);
+        for (kind, of, missing, wanted, unit) in [
+            (Passed::TorqueMissing, "torque", missing.torque, wanted.torque, "N·m"),
+            (Passed::ForceMissing, "force", missing.force, wanted.force, "N"),
+        ] {
+            let (missing, wanted) = (missing.norm(), wanted.norm());
+            if missing > MISSED * wanted && missing > MISSED {
+                let text = format!(
+                    "the actuators cannot give the {of} that is wanted: {missing:.3} of {wanted:.3} {unit} \
+                     missing"
+                );
+                self.tell_once(kind, text);
             }
-            Saturation::ActuatorTorque(i) => {
-                let limit =
-                    self.case.vehicle.attitude_actuator.map_or(f64::NAN, |a| a.torque_limit);
-                format!("attitude actuator at its torque limit of {limit} N·m about {}", axis(i))
-            }
-            Saturation::ActuatorMomentum(i) => {
-                let limit =
-                    self.case.vehicle.attitude_actuator.map_or(f64::NAN, |a| a.momentum_limit);
-                format!("attitude actuator full: {limit} N·m·s about {}", axis(i))
-            }
-            Saturation::WheelTorque(i) => format!("motor of wheel {i} at its torque limit"),
-            Saturation::WheelSpeed(i) => format!("wheel {i} at its speed limit"),
-            Saturation::GimbalRate(i) => format!("gimbal {i} at its rate limit"),
-            Saturation::GimbalMotor(i) => format!("motor of gimbal {i} at its torque limit"),
-            Saturation::PulseTooShort(i) => {
-                format!("thruster {i} stays shut: the pulse is shorter than it can be")
-            }
-            Saturation::TankEmpty => "thrusters stay shut: the tank is empty".to_string(),
+        }
+        if self.sensing.blinded {
+            let text = "the base turns too fast for its star tracker".into();
+            self.tell_once(Passed::Blinded, text);
+        }
+        let turned = self.turned();
+        if self.case.base == BaseAttitude::Controlled && turned > LOST && !self.lost {
+            self.lost = true;
+            let text = format!(
+                "attitude control lost: the base stands {:.2} deg from the attitude it should keep",
+                turned.to_degrees()
+            );
+            self.say(EventKind::Limit, text);
+        }
+    }
+
+    /// Say which limits the truth passes, each once in a phase.
+    fn tell_limits(&mut self, seen: &Observation) {
+        for (passed, text) in limits_passed(self.case, seen) {
+            self.tell_once(passed, text);
+        }
+    }
+
+    /// Say something that was not yet said in this phase.
+    fn tell_once(&mut self, passed: Passed, text: String) {
+        if !self.said_passed.contains(&passed) {
+            self.said_passed.push(passed);
+            self.say(EventKind::Limit, text);
         }
     }
 
@@ -330,40 +448,5 @@ impl<'a> Flight<'a> {
         self.holding.remove(number);
         self.floating[i] = Some(self.world.release(number));
         Ok(format!("released {name}"))
-    }
-}
-
-/// The books in the form that is reported.
-pub(crate) fn ledger(books: &wrasse_world::Ledger, base: BaseAttitude) -> Ledger {
-    // Momentum is exact where it is the state; where the attitude is held its torque is a quadrature
-    // of the same order as the integration, and so is all work.
-    let bounds = match base {
-        BaseAttitude::Held => [1e-6, 1e-11, 1e-6],
-        BaseAttitude::Controlled | BaseAttitude::Free => [1e-11, 1e-11, 1e-6],
-    };
-    let holds = |i: usize| books.worst[i] <= bounds[i] * books.scale[i] + f64::MIN_POSITIVE;
-    let [work_of_joints, work_of_actuator, work_from_outside] = books.work.to_array();
-    Ledger {
-        angular_start: books.start.angular.to_array(),
-        angular_end: books.now.angular.to_array(),
-        angular_from_actuator: books.angular_from_actuator.to_array(),
-        angular_from_outside: books.angular_from_outside.to_array(),
-        angular_rest: books.worst[0],
-        angular_scale: books.scale[0],
-        linear_start: books.start.linear.to_array(),
-        linear_end: books.now.linear.to_array(),
-        linear_from_outside: books.linear_from_outside.to_array(),
-        linear_rest: books.worst[1],
-        linear_scale: books.scale[1],
-        energy_start: books.start.energy,
-        energy_end: books.now.energy,
-        work_of_joints,
-        work_of_actuator,
-        work_from_outside,
-        energy_at_grasps: books.energy_at_grasps,
-        energy_rest: books.worst[2],
-        energy_scale: books.scale[2],
-        closes: (0..3).all(holds),
-        bounds,
     }
 }

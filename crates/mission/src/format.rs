@@ -1,9 +1,14 @@
 //! The mission file, as it is written. A number's unit is in its key.
 
+use crate::base_format::{
+    ActuatorsFile, EstimationFile, FailureFile, PositionHoldFile, SensingFile, SteeringFile,
+    StudyFile, WrenchFile,
+};
 use crate::phase_format::PhaseFile;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
+use wrasse_vehicle::{EquipmentFile, SensorsFile};
 
 /// A mission: a vehicle, what it holds, what it shall do, under which laws, and what is required.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -16,7 +21,7 @@ pub(crate) struct MissionFile {
     pub(crate) summary: String,
     /// A vehicle of the catalogue (`wrasse vehicles` lists them), or a file seen from this one.
     pub(crate) vehicle: String,
-    /// Seed of everything random. Nothing in a mission of today is random.
+    /// Seed of everything random: noise of sensors and of thruster pulses.
     #[serde(default)]
     pub(crate) seed: u64,
     /// Where everything is at the start.
@@ -25,6 +30,15 @@ pub(crate) struct MissionFile {
     /// Rigid bodies that can be held, by name.
     #[serde(default)]
     pub(crate) payload: BTreeMap<String, PayloadFile>,
+    /// Wheels, gyros and thrusters; they replace the vehicle's.
+    #[serde(default)]
+    pub(crate) actuators: Option<EquipmentFile>,
+    /// Sensors of attitude and joints; they replace the vehicle's.
+    #[serde(default)]
+    pub(crate) sensors: Option<SensorsFile>,
+    /// Units that fail on the way.
+    #[serde(default)]
+    pub(crate) failure: Vec<FailureFile>,
     /// The simulated truth.
     #[serde(default)]
     pub(crate) world: WorldFile,
@@ -43,6 +57,9 @@ pub(crate) struct MissionFile {
     /// Variants to compare: every combination of one row from each axis is run.
     #[serde(default)]
     pub(crate) compare: Vec<AxisFile>,
+    /// What `wrasse size` makes of the variants.
+    #[serde(default)]
+    pub(crate) study: Option<StudyFile>,
 }
 
 /// One axis of a comparison.
@@ -154,7 +171,7 @@ pub(crate) struct FreeFile {
 pub(crate) enum BaseFile {
     /// Held exactly; the torque that this takes is recorded.
     Held,
-    /// By the attitude law through the vehicle's actuator.
+    /// By the attitude law through the vehicle's actuators.
     Controlled,
     /// Nothing acts on it but the arm.
     Free,
@@ -184,6 +201,8 @@ pub(crate) struct WorldFile {
     pub(crate) step_s: Option<f64>,
     /// Error allowed in each step of the adaptive integrator; it replaces the fixed step.
     pub(crate) adaptive_tolerance: Option<f64>,
+    /// Wrenches from outside.
+    pub(crate) applied_wrench: Vec<WrenchFile>,
 }
 
 impl Default for WorldFile {
@@ -194,6 +213,7 @@ impl Default for WorldFile {
             torque_joints: vec![],
             step_s: None,
             adaptive_tolerance: None,
+            applied_wrench: vec![],
         }
     }
 }
@@ -284,6 +304,16 @@ pub(crate) struct ControlFile {
     pub(crate) attitude_damping_ratio: f64,
     /// Singular value (m, rad) of the law's Jacobian below which its inverse is damped.
     pub(crate) damped_below: f64,
+    /// Which actuators turn a controlled base; the fitted ones if there are any.
+    pub(crate) actuators: Option<ActuatorsFile>,
+    /// What the laws know the state by; the fitted sensors if there are any.
+    pub(crate) sensing: Option<SensingFile>,
+    /// From a wanted torque to what each actuator is told.
+    pub(crate) steering: SteeringFile,
+    /// Keep the centre of mass where it was at the start, by thrusters.
+    pub(crate) position_hold: Option<PositionHoldFile>,
+    /// What estimates start from.
+    pub(crate) estimation: EstimationFile,
 }
 
 impl Default for ControlFile {
@@ -302,6 +332,11 @@ impl Default for ControlFile {
             attitude_bandwidth_rad_s: 0.3,
             attitude_damping_ratio: 1.0,
             damped_below: 0.02,
+            actuators: None,
+            sensing: None,
+            steering: SteeringFile::default(),
+            position_hold: None,
+            estimation: EstimationFile::default(),
         }
     }
 }

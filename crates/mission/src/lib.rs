@@ -1,7 +1,10 @@
 //! A mission file puts a flight computer into a world, plans, runs and judges.
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
+mod applied_wrench;
 mod arm_shape;
+mod base_format;
+mod books;
 mod fly;
 mod format;
 mod limits_passed;
@@ -12,6 +15,7 @@ mod phase_format;
 mod picture;
 mod plan;
 mod quantity;
+mod read_base;
 mod read_mission;
 mod read_payload;
 mod read_phase;
@@ -19,12 +23,14 @@ mod read_setup;
 mod reading;
 mod requirement;
 mod run;
+mod saturations;
+mod sensing;
 mod telemetry;
 
-pub use mission::Mission;
+pub use mission::{Mission, Study};
 pub use outcome::{
-    CaseOutcome, Channel, End, Event, EventKind, Ledger, Metric, Outcome, PlanLine, ProvenanceRow,
-    Snapshot, SnapshotBox, Telemetry, VehicleCard, Verdict,
+    CaseOutcome, Channel, DemandSample, End, Event, EventKind, Ledger, Metric, Outcome, PlanLine,
+    ProvenanceRow, Snapshot, SnapshotBox, Telemetry, VehicleCard, Verdict,
 };
 pub use read_mission::{mission_schema, read_mission};
-pub use run::{Progress, RunOptions, run};
+pub use run::{Progress, RunOptions, run, run_case};

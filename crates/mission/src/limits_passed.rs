@@ -13,6 +13,9 @@ pub(crate) enum Passed {
     Effort(usize),
     HeldTorque(usize),
     HeldMomentum(usize),
+    TorqueMissing,
+    ForceMissing,
+    Blinded,
 }
 
 /// A little more than round-off: what is kept to the last digit was not passed.

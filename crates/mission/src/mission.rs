@@ -1,13 +1,18 @@
 //! A checked mission: ready to be planned and flown.
 
+use crate::applied_wrench::AppliedWrench;
+use crate::base_format::StudyFile;
 use crate::quantity::Quantity;
+use crate::read_base::Turning;
 use crate::requirement::Requirement;
 use std::sync::Arc;
-use wrasse_dynamics::{Frame, JointKind, Payload, Robot, State};
+use wrasse_dynamics::{BodyId, Frame, JointKind, Payload, Robot, State};
+use wrasse_flight::steering::Unit;
 use wrasse_flight::{Phase, Setup};
-use wrasse_spatial::{Pose, SpatialVelocity};
-use wrasse_vehicle::{JOINTS, Vehicle};
-use wrasse_world::{BaseAttitude, FreeBody, Stepper};
+use wrasse_hardware::Sensors;
+use wrasse_spatial::{Pose, SpatialVelocity, Sym3};
+use wrasse_vehicle::{Equipment, JOINTS, Vehicle};
+use wrasse_world::{BaseAttitude, Failure, FreeBody, Stepper};
 
 /// A mission file, checked.
 #[derive(Debug, Clone)]
@@ -22,10 +27,60 @@ pub struct Mission {
     pub text: String,
     /// Seed of everything random.
     pub seed: u64,
+    /// What `wrasse size` makes of the cases.
+    pub study: Option<Study>,
     pub(crate) cases: Vec<Case>,
 }
 
+/// What `wrasse size` makes of the cases of a mission.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Study {
+    /// The claim that is examined.
+    pub claim: String,
+    /// Name of the compared axis whose rows are tasks, if there is one.
+    pub tasks: Option<String>,
+    /// Name of the compared axis whose rows are sets of actuators.
+    pub sets: String,
+    /// The row of that axis that is ideal.
+    pub reference: String,
+    /// Tasks that are flown with every set.
+    pub closed_loop: Vec<String>,
+}
+
+impl Study {
+    pub(crate) fn of(file: &StudyFile) -> Self {
+        Self {
+            claim: file.claim.clone(),
+            tasks: file.tasks.clone(),
+            sets: file.sets.clone(),
+            reference: file.reference.clone(),
+            closed_loop: file.closed_loop.clone(),
+        }
+    }
+}
+
 impl Mission {
+    /// What tells a case from the others: axis and row of each comparison.
+    ///
+    /// # Panics
+    /// If there is no case of this number.
+    pub fn case_labels(&self, case: usize) -> &[(String, String)] {
+        &self.cases[case].labels
+    }
+    /// Wheels, gyros and thrusters of a case.
+    ///
+    /// # Panics
+    /// If there is no case of this number.
+    pub fn equipment(&self, case: usize) -> &Equipment {
+        &self.cases[case].equipment
+    }
+    /// The vehicle of a case.
+    ///
+    /// # Panics
+    /// If there is no case of this number.
+    pub fn vehicle(&self, case: usize) -> &Vehicle {
+        &self.cases[case].vehicle
+    }
     /// Number of cases: one, or one for each combination that is compared.
     pub fn case_count(&self) -> usize {
         self.cases.len()
@@ -42,6 +97,14 @@ pub(crate) struct Case {
     pub(crate) start: State<f64, JOINTS>,
     pub(crate) payloads: Vec<PayloadCase>,
     pub(crate) base: BaseAttitude,
+    /// What turns the base where it is controlled.
+    pub(crate) turning: Turning,
+    pub(crate) equipment: Equipment,
+    /// Imperfect sensors, if there are any.
+    pub(crate) sensors: Option<Sensors<f64>>,
+    pub(crate) failures: Vec<FailureCase>,
+    pub(crate) wrenches: Vec<AppliedWrench>,
+    pub(crate) seed: u64,
     pub(crate) stepper: Stepper,
     /// Which joints are driven by torque.
     pub(crate) torque: [bool; JOINTS],
@@ -53,6 +116,20 @@ pub(crate) struct Case {
     pub(crate) output_rate: f64,
     /// Instants in the drawing.
     pub(crate) snapshots: u32,
+}
+
+/// A unit that fails on the way.
+#[derive(Debug, Clone)]
+pub(crate) struct FailureCase {
+    /// Its name.
+    pub(crate) name: String,
+    /// In which way, in a word.
+    pub(crate) how: String,
+    pub(crate) unit: Unit,
+    pub(crate) breaks: Failure,
+    /// When it fails, and when the flight computer is told (s).
+    pub(crate) at: f64,
+    pub(crate) told_at: Option<f64>,
 }
 
 /// A payload and where it is at the start.
@@ -97,11 +174,18 @@ impl Case {
     pub(crate) fn periods_per_sample(&self) -> u64 {
         (1.0 / (self.output_rate * self.period())).round().max(1.0) as u64
     }
-    /// The robot with what it holds from the start.
+    /// The robot with what it holds from the start, and with its propellant.
     pub(crate) fn robot_at_start(&self) -> Robot<f64, JOINTS> {
-        self.held_at_start()
-            .iter()
-            .fold(self.vehicle.robot, |robot, (frame, matter)| robot.with_payload(frame, matter))
+        let fuelled = match self.equipment.actuators.tank {
+            Some(tank) => {
+                let base = Frame { body: BodyId::Base, X_BF: Pose::identity() };
+                let matter = Payload::from_central(tank.propellant, tank.position_B, Sym3::zero());
+                self.vehicle.robot.with_payload(&base, &matter)
+            }
+            None => self.vehicle.robot,
+        };
+        let held = self.held_at_start();
+        held.iter().fold(fuelled, |robot, (frame, matter)| robot.with_payload(frame, matter))
     }
     /// Payloads held from the start.
     pub(crate) fn held_at_start(&self) -> Vec<(Frame<f64>, Payload<f64>)> {

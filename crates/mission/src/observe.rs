@@ -3,11 +3,13 @@
 use crate::arm_shape::{reach_margin, smallest_singular_value};
 use crate::mission::Case;
 use crate::quantity::FIXED_COUNT;
+use crate::read_base::Turning;
 use wrasse_dynamics::{
     BodyId, Dynamics, JointKind, Kinematics, PerBody, State, inverse_dynamics, kinematics,
     kinetic_energy, mount_reaction,
 };
 use wrasse_flight::{Axes, Command, FlightComputer};
+use wrasse_hardware::ActuatorReadings;
 use wrasse_spatial::{Pose, Quat, SpatialForce, SpatialVelocity, Vec3};
 use wrasse_vehicle::JOINTS;
 use wrasse_world::World;
@@ -31,6 +33,8 @@ pub(crate) struct Observation {
     /// Rotation vector of the base since the start (rad) and its translation (m).
     pub(crate) base_turn: Vec3<f64>,
     pub(crate) base_shift: Vec3<f64>,
+    /// What wheels, gyros and thrusters say.
+    pub(crate) readings: ActuatorReadings<f64>,
     /// Values in the order of the quantities.
     pub(crate) values: Vec<f64>,
 }
@@ -77,6 +81,7 @@ pub(crate) fn observe(
     computer: &FlightComputer<f64, JOINTS>,
     command: &Command<f64, JOINTS>,
     track: &Track,
+    estimate_error: f64,
 ) -> Observation {
     let state = world.state();
     let dynamics = world.dynamics();
@@ -96,7 +101,11 @@ pub(crate) fn observe(
         dynamics,
         torque_B: world.actuator_torque_B() + dynamics.force.base.torque,
         reaction_B,
-        stored_B: world.stored_momentum_B(),
+        stored_B: match case.turning {
+            Turning::Fitted => command.steering.stored_B,
+            Turning::Ideal(_) => world.stored_momentum_B(),
+        },
+        readings: world.actuator_readings(),
         tool_error: (seen.translation - wanted.translation, rotation),
         X_NE,
         V_NE: k.velocity(&tool),
@@ -110,6 +119,7 @@ pub(crate) fn observe(
         smallest_singular_value(&computer.task_jacobian(), case.setup.assignment.task),
     );
     seen.values = values(case, &seen, track, mounts, shape, kinetic_energy(&k));
+    seen.values.extend(of_equipment(case, world, command, &seen, estimate_error));
     for j in world.robot().joints() {
         seen.values.push(seen.state.q[j] - case.start.q[j]);
         seen.values.push(command.set_points[j].position - case.start.q[j]);
@@ -117,6 +127,35 @@ pub(crate) fn observe(
         seen.values.push(seen.dynamics.force.joints[j]);
     }
     seen
+}
+
+/// Values of the quantities of wheels, gyros, thrusters and sensors, in their order; NaN where there is
+/// none.
+fn of_equipment(
+    case: &Case,
+    world: &World<JOINTS>,
+    command: &Command<f64, JOINTS>,
+    seen: &Observation,
+    estimate_error: f64,
+) -> [f64; 8] {
+    let (actuators, readings) = (&case.equipment.actuators, &seen.readings);
+    let largest = |uses: &mut dyn Iterator<Item = f64>| uses.fold(f64::NAN, f64::max);
+    let wheels = actuators.wheels.iter().zip(readings.wheel_speed);
+    let gyros = actuators.gyros.iter().zip(readings.gimbal_rate);
+    let motors = (0..actuators.gyros.len()).map(|i| world.gimbal_motor_torque()[i].abs());
+    let fitted = case.turning == Turning::Fitted;
+    let missing = |x: f64| if fitted { x } else { f64::NAN };
+    let tank = actuators.tank.map_or(f64::NAN, |tank| tank.propellant);
+    [
+        missing(command.steering.missing.torque.norm()),
+        missing(command.steering.missing.force.norm()),
+        estimate_error,
+        largest(&mut wheels.map(|(w, speed)| speed.abs() / w.speed_limit)),
+        largest(&mut gyros.map(|(g, rate)| rate.abs() / g.rate_limit)),
+        largest(&mut motors.into_iter()),
+        if actuators.gyros.is_empty() { f64::NAN } else { missing(command.steering.singularity) },
+        tank - readings.propellant,
+    ]
 }
 
 /// Largest force (N) and moment (N·m) at a mount, and the torque about the base's centre of mass by

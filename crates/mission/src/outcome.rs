@@ -1,7 +1,10 @@
 //! What a run leaves behind: verdicts, ledger, telemetry, pictures. Plain data for those who
 //! record, draw or judge it.
 
+use crate::observe::Observation;
 use serde::Serialize;
+use wrasse_flight::Command;
+use wrasse_vehicle::JOINTS;
 
 /// Everything about one `wrasse run`.
 #[derive(Debug, Clone, Serialize)]
@@ -115,9 +118,39 @@ pub struct CaseOutcome {
     /// Time histories.
     #[serde(skip)]
     pub telemetry: Telemetry,
+    /// What was asked of the base, in every control period.
+    #[serde(skip)]
+    pub demand: Vec<DemandSample>,
     /// The motion, for a drawing.
     #[serde(skip)]
     pub snapshots: Vec<Snapshot>,
+}
+
+/// What was asked of whatever turns the base, in one control period.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DemandSample {
+    /// Mission time at the end of the period (s).
+    pub time: f64,
+    /// Torque that the base should feel, base axes (N·m).
+    pub torque_B: [f64; 3],
+    /// Momentum that is stored at the end, base axes (N·m·s).
+    pub momentum_B: [f64; 3],
+    /// Distance of the tool from its reference (m).
+    pub tool_error: f64,
+    /// Angle of the base from where it began (rad).
+    pub base_turn: f64,
+}
+
+impl DemandSample {
+    pub(crate) fn of(time: f64, command: &Command<f64, JOINTS>, seen: &Observation) -> Self {
+        Self {
+            time,
+            torque_B: command.attitude_torque_B.to_array(),
+            momentum_B: seen.stored_B.to_array(),
+            tool_error: seen.tool_error.0.norm(),
+            base_turn: seen.base_turn.norm(),
+        }
+    }
 }
 
 /// What the planning found for one phase.
@@ -139,6 +172,8 @@ pub enum EventKind {
     Grip,
     /// A limit was reached or passed.
     Limit,
+    /// A unit failed, or the flight computer was told of it.
+    Failure,
 }
 
 /// Something that happened.
@@ -191,6 +226,15 @@ pub struct Ledger {
     /// Angular impulse by which the attitude actuator turned the bodies (N·m·s): what it stores is the
     /// opposite.
     pub angular_from_actuator: [f64; 3],
+    /// Of the angular momentum: in wheels and in gyros beside the base, at the start and at the end
+    /// (N·m·s).
+    pub angular_in_wheels: [[f64; 3]; 2],
+    /// The same of the gyros (N·m·s).
+    pub angular_in_gyros: [[f64; 3]; 2],
+    /// Angular impulse of the thrusters (N·m·s).
+    pub angular_from_thrusters: [f64; 3],
+    /// Angular momentum that left with the propellant (N·m·s).
+    pub angular_with_propellant: [f64; 3],
     /// Angular impulse from outside (N·m·s).
     pub angular_from_outside: [f64; 3],
     /// What is left unexplained, largest over the run (N·m·s).
@@ -204,6 +248,14 @@ pub struct Ledger {
     pub linear_end: [f64; 3],
     /// Impulse from outside (N·s).
     pub linear_from_outside: [f64; 3],
+    /// Impulse of the thrusters (N·s).
+    pub linear_from_thrusters: [f64; 3],
+    /// Momentum that left with the propellant (N·s).
+    pub linear_with_propellant: [f64; 3],
+    /// Propellant that left (kg).
+    pub propellant: f64,
+    /// Kinetic energy that left with it (J).
+    pub energy_with_propellant: f64,
     /// Unexplained, largest over the run (N·s).
     pub linear_rest: f64,
     /// Sum of the bodies' absolute momenta, largest over the run (N·s).
@@ -214,7 +266,7 @@ pub struct Ledger {
     pub energy_end: f64,
     /// Work of the joint drives (J).
     pub work_of_joints: f64,
-    /// Work of the attitude actuator on the base (J).
+    /// Work of whatever turns and pushes the base on the bodies (J).
     pub work_of_actuator: f64,
     /// Work from outside (J).
     pub work_from_outside: f64,

@@ -6,6 +6,7 @@ use crate::mission::{Case, PayloadStart};
 use crate::outcome::{End, PlanLine};
 use wrasse_dynamics::{Frame, Payload, Robot, kinematics};
 use wrasse_flight::{BadPhase, FlightComputer, Grip, LONGEST, NoWay, Sensed, Task};
+use wrasse_hardware::ActuatorReadings;
 use wrasse_spatial::{Quat, Vec3};
 use wrasse_vehicle::JOINTS;
 use wrasse_world::FreeBody;
@@ -63,11 +64,12 @@ pub(crate) fn plan(case: &Case) -> Plan {
     let mut belief = Belief::new(case);
     let mut plan = Plan { lines: vec![], periods: 0, blocked: None };
     let mut state = case.start;
+    let idle = ActuatorReadings::default();
     let mut notes = PhaseNotes::NONE;
     let mut phase = 0;
     while !belief.computer.done() && plan.periods < u64::from(LONGEST) {
         let time = case.period() * plan.periods as f64;
-        let command = match belief.computer.step(&Sensed { state }) {
+        let command = match belief.computer.step(&Sensed::perfect(&state, idle)) {
             Ok(command) => command,
             Err(bad) => {
                 plan.lines.extend(finished(case, phase, &notes));
@@ -114,6 +116,9 @@ fn too_long(case: &Case, phase: usize, periods: u64) -> End {
 impl<'a> Belief<'a> {
     fn new(case: &'a Case) -> Self {
         let phases = case.flight_phases();
+        // The laws believe in a base that does as it is told: nobody has to be steered.
+        let mut setup = case.setup;
+        (setup.base.steering, setup.base.position_hold) = (None, None);
         let held = case.payloads.iter().enumerate().filter_map(|(i, p)| match p.start {
             PayloadStart::Held(frame) => Some((i, frame, p.matter)),
             PayloadStart::Free(..) => None,
@@ -124,7 +129,7 @@ impl<'a> Belief<'a> {
         });
         Self {
             case,
-            computer: FlightComputer::new(case.setup, &case.robot_at_start(), &phases),
+            computer: FlightComputer::new(setup, &case.robot_at_start(), &phases),
             held: held.collect(),
             free: free.collect(),
         }

@@ -13,6 +13,7 @@ pub(crate) enum Kind {
     Torque,
     AngularMomentum,
     Energy,
+    Mass,
     Number,
 }
 
@@ -40,6 +41,8 @@ const UNITS: &[(&str, Kind, f64)] = &[
     ("Nms", Kind::AngularMomentum, 1.0),
     ("J", Kind::Energy, 1.0),
     ("mJ", Kind::Energy, 1e-3),
+    ("kg", Kind::Mass, 1.0),
+    ("g", Kind::Mass, 1e-3),
     ("-", Kind::Number, 1.0),
     ("%", Kind::Number, 1e-2),
 ];
@@ -126,8 +129,21 @@ const FIXED: &[(&str, Kind, &[Statistic])] = {
         ("attitude.torque", Kind::Torque, &[Max]),
         ("attitude.momentum", Kind::AngularMomentum, &[Max, Final]),
         ("energy", Kind::Energy, &[Max, Final]),
+        ("attitude.torque_missing", Kind::Torque, &[Max, Rms]),
+        ("attitude.force_missing", Kind::Force, &[Max, Rms]),
+        ("attitude.estimate_error", Kind::Angle, &[Max, Final, Rms]),
+        ("wheels.speed_use", Kind::Number, &[Max, Final]),
+        ("gyros.rate_use", Kind::Number, &[Max]),
+        ("gyros.motor_torque", Kind::Torque, &[Max]),
+        ("gyros.singularity_distance", Kind::Number, &[Min, Final]),
+        ("thrusters.propellant_used", Kind::Mass, &[Final]),
     ]
 };
+
+/// Place of a quantity of any vehicle among the values.
+pub(crate) fn place(name: &str) -> usize {
+    FIXED.iter().position(|quantity| quantity.0 == name).unwrap_or(FIXED_COUNT)
+}
 
 /// Number of quantities of any vehicle.
 pub(crate) const FIXED_COUNT: usize = FIXED.len();

@@ -1,9 +1,12 @@
 //! A mission file to a checked mission, with all complaints at once.
 
 use crate::format::MissionFile;
-use crate::mission::{Case, Mission};
+use crate::mission::{Case, Mission, Study};
 use crate::phase_format::PhaseFile;
 use crate::quantity::quantities;
+use crate::read_base::{
+    Turning, applied_wrenches, base_control, equipment, failures, navigation, sensors, turning,
+};
 use crate::read_payload::payloads;
 use crate::read_phase::phase;
 use crate::read_setup::{base_attitude, setup, start, stepper, torque_joints};
@@ -72,6 +75,7 @@ pub fn read_mission(
         file: source.path.display().to_string(),
         text: source.text.clone(),
         seed: file.seed,
+        study: file.study.as_ref().map(Study::of),
         cases,
     })
 }
@@ -142,7 +146,15 @@ fn read_case(document: &Document, labels: Vec<(String, String)>) -> Result<Case,
     let vehicle = vehicle_of(&file, document)?;
     let mut reading = Reading { document, complaints: vec![], vehicle: &vehicle };
     let r = &mut reading;
-    let (setup, start) = (setup(r, &file), start(r, &file));
+    let start = start(r, &file);
+    let equipment = equipment(r, &file);
+    let turning = turning(r, &file, &equipment);
+    let sensors = sensors(r, &file);
+    let fitted = (turning == Turning::Fitted).then_some(&equipment);
+    let (base_control, navigation) =
+        (base_control(r, &file, fitted), navigation(r, &file, sensors.as_ref()));
+    let setup = setup(r, &file, base_control, navigation);
+    let (failures, wrenches) = (failures(r, &file, &equipment), applied_wrenches(r, &file));
     let payloads = payloads(r, &file, &start);
     let base = base_attitude(r, &file, &start);
     let names: Vec<String> = file.phase.iter().map(|p| p.name.clone()).collect();
@@ -181,6 +193,12 @@ fn read_case(document: &Document, labels: Vec<(String, String)>) -> Result<Case,
         start,
         payloads,
         base,
+        turning,
+        equipment,
+        sensors,
+        failures,
+        wrenches,
+        seed: file.seed,
         stepper,
         torque,
         setup,

@@ -1,8 +1,7 @@
 //! The start, the world and the laws, out of a mission file.
 
 use crate::format::{
-    ArmLawFile, AttitudeFile, BaseFile, FeedforwardFile, JointsFile, MeasurementFile, MissionFile,
-    TaskFile,
+    ArmLawFile, AttitudeFile, BaseFile, JointsFile, MeasurementFile, MissionFile, TaskFile,
 };
 use crate::phase_format::AxesFile;
 use crate::reading::Reading;
@@ -10,7 +9,8 @@ use std::collections::BTreeMap;
 use wrasse_document::{Step, at};
 use wrasse_dynamics::{BodyId, Frame, JointKind, State};
 use wrasse_flight::{
-    ArmLaw, Assignment, Axes, Feedforward, JointUse, Measurement, Setup, Task, Tuning,
+    ArmLaw, Assignment, Axes, BaseControlSetup, JointUse, Measurement, NavigationSetup, Setup,
+    Task, Tuning,
 };
 use wrasse_hardware::JointLimits;
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Vec3};
@@ -160,14 +160,7 @@ pub(crate) fn base_attitude(
             }
             BaseAttitude::Held
         }
-        BaseFile::Controlled => {
-            if r.vehicle.attitude_actuator.is_none() {
-                let message = format!("vehicle {} has no attitude actuator", file.vehicle);
-                let help = "add [attitude_actuator] to its file, or choose \"held\" or \"free\"";
-                r.error(path, message, help);
-            }
-            BaseAttitude::Controlled
-        }
+        BaseFile::Controlled => BaseAttitude::Controlled,
         BaseFile::Free => BaseAttitude::Free,
     }
 }
@@ -212,7 +205,12 @@ pub(crate) fn torque_joints(r: &mut Reading<'_>, file: &MissionFile) -> [bool; J
 const UNLIMITED: f64 = 1e3;
 
 /// The laws.
-pub(crate) fn setup(r: &mut Reading<'_>, file: &MissionFile) -> Setup<f64, JOINTS> {
+pub(crate) fn setup(
+    r: &mut Reading<'_>,
+    file: &MissionFile,
+    base: BaseControlSetup<f64>,
+    navigation: NavigationSetup<f64>,
+) -> Setup<f64, JOINTS> {
     let c = &file.control;
     let path = |key| [Step::Key("control"), Step::Key(key)];
     // Without a limit in the vehicle file: as fast as nothing moves.
@@ -248,19 +246,14 @@ pub(crate) fn setup(r: &mut Reading<'_>, file: &MissionFile) -> Setup<f64, JOINT
             damped_below: r.positive(&path("damped_below"), c.damped_below),
         },
         joints,
-        feedforward: match c.feedforward {
-            FeedforwardFile::Exact => Feedforward::Exact,
-            FeedforwardFile::AsPrinted => Feedforward::AsPrinted,
-            FeedforwardFile::AsPrintedSystemCm => Feedforward::AsPrintedSystemCm,
-            FeedforwardFile::None => Feedforward::None,
-        },
+        base,
+        navigation,
         measurement: match c.measurement {
             MeasurementFile::None => Measurement::None,
             MeasurementFile::Base => Measurement::Base,
         },
         tuning: tuning(r, c),
         limits,
-        quat_ND: attitude(r, at!["initial", "attitude"], file.initial.attitude),
     }
 }
 

@@ -1,6 +1,7 @@
 //! A mission run: each case planned, flown and judged.
 
-use crate::fly::{Flown, fly, ledger};
+use crate::books::ledger;
+use crate::fly::{Flown, fly};
 use crate::mission::{Case, Mission};
 use crate::outcome::{
     CaseOutcome, End, Ledger, Metric, Outcome, ProvenanceRow, Telemetry, VehicleCard,
@@ -38,11 +39,11 @@ pub fn run(
 ) -> Outcome {
     let cases = mission.cases.len();
     let mut outcomes = vec![];
-    for (number, case) in mission.cases.iter().enumerate() {
+    for number in 0..cases {
         let mut tell = |doing: &str, share| {
             progress(Progress { case: number, cases, share, doing });
         };
-        outcomes.push(run_case(case, options, &mut tell));
+        outcomes.push(run_case(mission, number, options, &mut tell));
     }
     Outcome {
         mission: mission.name.clone(),
@@ -80,7 +81,17 @@ fn vehicle_card(case: &Case) -> VehicleCard {
     }
 }
 
-fn run_case(case: &Case, options: RunOptions, tell: &mut dyn FnMut(&str, f64)) -> CaseOutcome {
+/// Run the case of this number alone; `tell` is told what is done, and which share of it.
+///
+/// # Panics
+/// If there is no case of this number.
+pub fn run_case(
+    mission: &Mission,
+    case: usize,
+    options: RunOptions,
+    tell: &mut dyn FnMut(&str, f64),
+) -> CaseOutcome {
+    let case = &mission.cases[case];
     tell("planning", 0.0);
     let plan = plan(case);
     if let Some(end) = &plan.blocked {
@@ -107,6 +118,7 @@ fn run_case(case: &Case, options: RunOptions, tell: &mut dyn FnMut(&str, f64)) -
         events: flown.events,
         error_estimate,
         telemetry: flown.telemetry,
+        demand: flown.demand,
         snapshots: flown.snapshots,
     }
 }
@@ -124,6 +136,7 @@ fn not_flown(case: &Case, plan: &Plan, end: End) -> CaseOutcome {
         events: vec![],
         error_estimate: vec![],
         telemetry: Telemetry::default(),
+        demand: vec![],
         snapshots: vec![],
     }
 }

@@ -3,6 +3,8 @@
 use crate::mission::Case;
 use crate::observe::Observation;
 use crate::outcome::{Channel, Telemetry};
+use crate::quantity::place;
+use crate::read_base::Turning;
 use wrasse_dynamics::JointKind;
 use wrasse_spatial::Vec3;
 use wrasse_world::Ledger;
@@ -48,6 +50,7 @@ impl Recorder {
         self.tool_and_base(seen);
         self.joints(case, seen);
         self.attitude(case, seen);
+        self.equipment(case, seen);
         self.books(ledger);
     }
 
@@ -102,7 +105,7 @@ impl Recorder {
         self.put_vector(plot, "given", "attitude.torque", "N·m", seen.torque_B);
         let plot = "Momentum stored by the attitude control";
         self.put_vector(plot, "", "attitude.momentum", "N·m·s", seen.stored_B);
-        if let Some(actuator) = case.vehicle.attitude_actuator {
+        if let Turning::Ideal(Some(actuator)) = case.turning {
             let limit = actuator.momentum_limit;
             self.put(plot, "limit", "attitude.momentum_limit", "N·m·s", limit);
             self.put(plot, "-limit", "attitude.momentum_limit_below", "N·m·s", -limit);
@@ -116,6 +119,42 @@ impl Recorder {
         );
         let plot = "Distance from a singular posture";
         self.put(plot, "smallest singular value", "arm.singularity_distance", "–", seen.values[14]);
+    }
+
+    fn equipment(&mut self, case: &Case, seen: &Observation) {
+        let (equipment, read) = (&case.equipment, &seen.readings);
+        let value = |name: &str| seen.values[place(name)];
+        for (i, name) in equipment.wheel_names.iter().enumerate() {
+            let per_minute = read.wheel_speed[i] * 30.0 / std::f64::consts::PI;
+            self.put("Wheel speeds", name, &format!("wheel.{name}.speed"), "rpm", per_minute);
+        }
+        for (i, name) in equipment.gyro_names.iter().enumerate() {
+            let degrees = read.gimbal_angle[i].to_degrees();
+            self.put("Gimbal angles", name, &format!("gyro.{name}.angle"), "deg", degrees);
+        }
+        for (i, name) in equipment.gyro_names.iter().enumerate() {
+            let degrees = read.gimbal_rate[i].to_degrees();
+            self.put("Gimbal rates", name, &format!("gyro.{name}.rate"), "deg/s", degrees);
+        }
+        if !equipment.gyro_names.is_empty() {
+            let plot = "Distance of the gyros from a singular setting";
+            let measure = value("gyros.singularity_distance");
+            self.put(plot, "det(A Aᵀ)", "gyros.singularity_distance", "–", measure);
+        }
+        if equipment.actuators.tank.is_some() {
+            let grams = value("thrusters.propellant_used") * 1e3;
+            self.put("Propellant used", "used", "thrusters.propellant_used", "g", grams);
+        }
+        if case.turning == Turning::Fitted {
+            let missing = value("attitude.torque_missing");
+            let plot = "Torque that was wanted and not given";
+            self.put(plot, "missing", "attitude.torque_missing", "N·m", missing);
+        }
+        if case.sensors.is_some_and(|s| s.attitude.is_some()) {
+            let error = value("attitude.estimate_error").to_degrees() * 3600.0;
+            let plot = "Error of the attitude estimate";
+            self.put(plot, "angle", "attitude.estimate_error", "arcsec", error);
+        }
     }
 
     fn books(&mut self, ledger: &Ledger) {

@@ -158,7 +158,9 @@ fn ledger(case: &CaseOutcome) -> String {
         "Start",
         "Joint drives",
         "Attitude actuator",
+        "Thrusters",
         "Outside",
+        "With propellant",
         "Grasps",
         "End",
         "Unexplained",
@@ -189,22 +191,28 @@ fn ledger(case: &CaseOutcome) -> String {
         "<p><span class=\"fail\">\u{2717} stays open</span>: a rest is above its bound.</p>\n"
     };
     format!(
-        "{closes}{}<p class=\"hint\">Vectors are in inertial axes, angular momentum is about the \
+        "{closes}{}{}<p class=\"hint\">Vectors are in inertial axes, angular momentum is about the \
          centre of mass of everything simulated. What the attitude actuator stores is the opposite \
-         of its entry. Rests are the largest over the run.</p>\n",
-        table("ledger", &head, &rows)
+         of its entry; what wheels and gyros store is part of start and end, and the work on the bodies \
+         of thrusters, wheels and gyros stands under the attitude actuator. Rests are the largest over \
+         the run.</p>\n",
+        table("ledger", &head, &rows),
+        stores(ledger)
     )
 }
 
 /// What was booked of angular momentum, linear momentum and energy, in the order of the table.
-fn ledger_entries(ledger: &Ledger) -> [[String; 6]; 3] {
+fn ledger_entries(ledger: &Ledger) -> [[String; 8]; 3] {
     let none = String::new;
+    let left = |v: [f64; 3]| stacked(v.map(|x| -x));
     [
         [
             stacked(ledger.angular_start),
             none(),
             stacked(ledger.angular_from_actuator),
+            stacked(ledger.angular_from_thrusters),
             stacked(ledger.angular_from_outside),
+            left(ledger.angular_with_propellant),
             none(),
             stacked(ledger.angular_end),
         ],
@@ -212,20 +220,40 @@ fn ledger_entries(ledger: &Ledger) -> [[String; 6]; 3] {
             stacked(ledger.linear_start),
             none(),
             none(),
+            stacked(ledger.linear_from_thrusters),
             stacked(ledger.linear_from_outside),
+            left(ledger.linear_with_propellant),
             none(),
             stacked(ledger.linear_end),
         ],
         [
-            ledger.energy_start,
-            ledger.work_of_joints,
-            ledger.work_of_actuator,
-            ledger.work_from_outside,
-            ledger.energy_at_grasps,
-            ledger.energy_end,
-        ]
-        .map(significant),
+            significant(ledger.energy_start),
+            significant(ledger.work_of_joints),
+            significant(ledger.work_of_actuator),
+            none(),
+            significant(ledger.work_from_outside),
+            significant(-ledger.energy_with_propellant),
+            significant(ledger.energy_at_grasps),
+            significant(ledger.energy_end),
+        ],
     ]
+}
+
+/// Where the angular momentum was at the start and at the end, if there are wheels or gyros.
+fn stores(ledger: &Ledger) -> String {
+    let each = [("wheels", ledger.angular_in_wheels), ("gyros", ledger.angular_in_gyros)];
+    let rows: Vec<_> = each
+        .into_iter()
+        .filter(|(_, [start, end])| start.iter().chain(end).any(|x| *x != 0.0))
+        .map(|(what, ends)| {
+            let [start, end] = ends.map(|v| format!("<td class=\"n\">{}</td>", stacked(v)));
+            vec![words(&format!("in the {what} (N·m·s)")), start, end]
+        })
+        .collect();
+    if rows.is_empty() {
+        return String::new();
+    }
+    table("text", &["Angular momentum", "Start", "End"], &rows)
 }
 
 /// A vector's components below each other.

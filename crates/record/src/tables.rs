@@ -44,11 +44,12 @@ fn was_flown(case: &CaseOutcome) -> bool {
 }
 
 /// Most limits that are told one by one.
-const LIMITS: usize = 8;
+const LIMITS: usize = 12;
 
-/// Limits that were reached or passed, a line each.
+/// Limits that were reached or passed and units that failed, a line each.
 fn limits_reached(case: &CaseOutcome) -> String {
-    let limits: Vec<_> = case.events.iter().filter(|e| e.kind == EventKind::Limit).collect();
+    let told = |kind| matches!(kind, EventKind::Limit | EventKind::Failure);
+    let limits: Vec<_> = case.events.iter().filter(|e| told(e.kind)).collect();
     let lines = limits
         .iter()
         .take(LIMITS)

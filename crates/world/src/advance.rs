@@ -130,11 +130,11 @@ impl<const J: usize> World<J> {
             add(&mut s.gimbal_rate[i], d.gimbal_rate[i], &mut carry.gimbal_rate[i]);
         }
         let b = &mut self.booked;
-        add3(&mut b.outside_impulse, d.outside_impulse, &mut Vec3::zero());
+        add3(&mut b.outside_impulse, d.outside_impulse, &mut carry.outside_impulse);
         add3(&mut b.from_actuator, d.from_actuator, &mut carry.from_actuator);
         add3(&mut b.from_outside, d.from_outside, &mut carry.from_outside);
         add3(&mut b.from_thrusters, d.from_thrusters, &mut carry.from_thrusters);
-        add3(&mut b.thruster_impulse, d.thruster_impulse, &mut Vec3::zero());
+        add3(&mut b.thruster_impulse, d.thruster_impulse, &mut carry.thruster_impulse);
         add3(&mut b.work, d.work, &mut carry.work);
         self.carry = carry;
         self.check_finite(t)

@@ -10,6 +10,7 @@ mod preferred_angles;
 mod pulse_modulation;
 mod rate_conditions;
 mod span;
+mod steer;
 mod thruster_selection;
 mod unloading;
 mod wheel_allocation;
@@ -18,6 +19,7 @@ pub use gyro_steering::{Damping, GyroLaw, GyroSharing, Waves, gyro_rates, gyro_s
 pub use posture_relief::{NoRelief, Relief, ReliefUse, ToolTask, momentum_rate, posture_relief};
 pub use preferred_angles::preferred_angles;
 pub use pulse_modulation::{Modulation, Modulator};
+pub use steer::{Needs, Steered, Steering, SteeringReport, SteeringSetup, Unit};
 pub use thruster_selection::{Selection, WrenchAxes, controllable_axes, thruster_duties};
 pub use unloading::Unloading;
 pub use wheel_allocation::{WheelLaw, WheelSharing, wheel_torques};

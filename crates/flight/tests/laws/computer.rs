@@ -11,7 +11,7 @@ use wrasse_flight::{
     ArmLaw, Axes, Command, FlightComputer, Held, JointTarget, JointTiming, Measurement, Phase,
     Sensed, attitude_torque, feedforward_torque,
 };
-use wrasse_hardware::{SetPoint, SetPointMotion};
+use wrasse_hardware::{ActuatorReadings, SetPoint, SetPointMotion};
 use wrasse_spatial::{
     Pose, Quat, SpatialForce, SpatialMomentum, SpatialVelocity, Vec3, rotation_vector_rate,
     turned_by, vec3,
@@ -252,7 +252,8 @@ fn only_a_law_that_measures_takes_the_sensed_base() {
             let phases = [Phase::Hold { what: Held::Joints, duration: 1.0 }];
             let mut flight = Flight::new(&setup(law, measurement), at_rest(), &phases);
             flight.step().unwrap();
-            let sensed = Sensed { state: State { X_NB: elsewhere, ..at_rest() } };
+            let state = State { X_NB: elsewhere, ..at_rest() };
+            let sensed = Sensed::perfect(&state, ActuatorReadings::default());
             flight.computer.step(&sensed).unwrap();
             let expected =
                 if measurement == Measurement::Base { elsewhere } else { at_rest().X_NB };
@@ -279,7 +280,7 @@ fn a_measured_error_is_taken_back_at_the_tool_gain() {
             if k == 0 {
                 state.X_NB.translation += shift;
             }
-            flight.computer.step(&Sensed { state }).unwrap();
+            flight.computer.step(&Sensed::perfect(&state, ActuatorReadings::default())).unwrap();
             let (off, _) = flight.computer.believed_tool_error();
             // The first set-points still join the rates from before to those that take the error back.
             if let Some(before) = before
@@ -302,7 +303,8 @@ fn gap_over_unexpected(V_NB_B: SpatialVelocity<f64>) -> Worst {
     let mut state = State { V_NB_B, ..at_rest() };
     let (mut commands, mut worst) = (vec![], Worst::none());
     while !computer.done() {
-        commands.push(computer.step(&Sensed { state }).unwrap());
+        commands
+            .push(computer.step(&Sensed::perfect(&state, ActuatorReadings::default())).unwrap());
         let R = state.X_NB.rotation;
         let half = Quat::exp(V_NB_B.angular * (0.5 * PERIOD)).to_matrix();
         state.X_NB.rotation = R * Quat::exp(V_NB_B.angular * PERIOD).to_matrix();
@@ -372,17 +374,18 @@ fn the_torques_carry_the_arm_along_the_set_points() {
     {
         let mut state = at_rest();
         let mut setup = setup(law, Measurement::None);
-        setup.quat_ND = Quat::from_matrix(&state.X_NB.rotation);
+        setup.base.quat_ND = Quat::from_matrix(&state.X_NB.rotation);
         let mut computer = FlightComputer::new(setup, &robot, &tour(Axes::Inertial));
         let mut now = state.q.map(|position| SetPoint { position, ..SetPoint::default() });
         while !computer.done() {
-            let command = computer.step(&Sensed { state }).unwrap();
+            let command =
+                computer.step(&Sensed::perfect(&state, ActuatorReadings::default())).unwrap();
             state = driven(&robot, &state, &command, base);
             off.see_all(state.q, command.set_points.map(|s| s.position));
             let middle = std::array::from_fn(|j| {
                 SetPointMotion::between(now[j], command.set_points[j], PERIOD).at(0.5 * PERIOD)
             });
-            let fed = feedforward_torque(&robot, setup.feedforward, &middle);
+            let fed = feedforward_torque(&robot, setup.base.feedforward, &middle);
             if base == BaseMode::AttitudeHeld {
                 torque.see((command.attitude_torque_B - fed).norm());
             }
@@ -400,12 +403,12 @@ fn the_attitude_torque_is_the_one_fed_forward_and_the_one_fed_back() {
     let phases = [Phase::Hold { what: Held::Joints, duration: 1.0 }];
     let mut computer = FlightComputer::new(setup, &robot(), &phases);
     let state = drifting();
-    let command = computer.step(&Sensed { state }).unwrap();
+    let command = computer.step(&Sensed::perfect(&state, ActuatorReadings::default())).unwrap();
     let I_Scm_B = mass_matrix(&kinematics(&robot(), &state)).M_bb.central();
     let quat_NB = Quat::from_matrix(&state.X_NB.rotation);
     let w_NB_B = state.V_NB_B.angular;
     // The joints stand still, so that nothing is fed forward.
-    let back = attitude_torque(&setup.tuning, &I_Scm_B, &quat_NB, w_NB_B, &setup.quat_ND);
+    let back = attitude_torque(&setup.tuning, &I_Scm_B, &quat_NB, w_NB_B, &setup.base.quat_ND);
     assert_eq!(command.attitude_torque_B, back);
     assert!(back.norm() > 1.0, "{back:?}");
 }

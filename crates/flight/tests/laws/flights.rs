@@ -3,10 +3,10 @@
 use crate::arms::{atlas_class, cube};
 use wrasse_dynamics::{Robot, State};
 use wrasse_flight::{
-    ArmLaw, Assignment, Axes, BadPhase, Command, Feedforward, FlightComputer, JointUse,
-    Measurement, Phase, Sensed, Setup, Target, Task, Timing, Tuning,
+    ArmLaw, Assignment, Axes, BadPhase, BaseControlSetup, Command, Feedforward, FlightComputer,
+    JointUse, Measurement, NavigationSetup, Phase, Sensed, Setup, Target, Task, Timing, Tuning,
 };
-use wrasse_hardware::JointLimits;
+use wrasse_hardware::{ActuatorReadings, JointLimits};
 use wrasse_spatial::{Pose, Quat, Real, Scalar, SpatialVelocity, Vec3, vec3};
 
 /// Control period (s).
@@ -53,7 +53,8 @@ pub(crate) fn setup<T: Scalar>(law: ArmLaw, measurement: Measurement) -> Setup<T
             posture: [c(0.0); 7],
             rate_limit: [c(1e3); 7],
         },
-        feedforward: Feedforward::Exact,
+        base: BaseControlSetup::ideal(Feedforward::Exact, Quat::identity()),
+        navigation: NavigationSetup::perfect(),
         measurement,
         tuning: Tuning {
             period: c(PERIOD),
@@ -64,7 +65,6 @@ pub(crate) fn setup<T: Scalar>(law: ArmLaw, measurement: Measurement) -> Setup<T
             attitude_damping: c(1.0),
         },
         limits: [JointLimits::default(); 7],
-        quat_ND: Quat::identity(),
     }
 }
 
@@ -103,7 +103,7 @@ impl<T: Scalar, const J: usize> Flight<T, J> {
     }
     /// One period, sensed as believed.
     pub(crate) fn step(&mut self) -> Result<Command<T, J>, BadPhase<T>> {
-        let sensed = Sensed { state: self.state() };
+        let sensed = Sensed::perfect(&self.state(), ActuatorReadings::default());
         self.start = None;
         self.computer.step(&sensed)
     }

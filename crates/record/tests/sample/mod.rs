@@ -168,6 +168,7 @@ fn case(labels: Vec<(String, String)>, miss: f64, samples: usize) -> CaseOutcome
         .to_vec(),
         error_estimate: vec![metric("base.attitude", 3.1e-12, "rad")],
         telemetry,
+        demand: vec![],
         snapshots: (0..25).map(|k| snapshot(f64::from(k), miss)).collect(),
     }
 }

@@ -1,0 +1,103 @@
+//! Control of the base: the torque and force that it should feel, and who gives them.
+
+use crate::attitude_control::attitude_torque;
+use crate::feedforward::feedforward_torque;
+use crate::law::{Feedforward, Tuning};
+use crate::steering::{Needs, Steered, Steering, SteeringSetup, Unit};
+use wrasse_dynamics::{Robot, State, kinematics, momentum};
+use wrasse_hardware::{ActuatorReadings, SetPoint};
+use wrasse_spatial::{Quat, Scalar, SpatialForce, SpatialInertia, Vec3};
+
+/// How the centre of mass of the system is kept where it was at the start.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PositionHold<T> {
+    /// Bandwidth of the loop (rad/s).
+    pub bandwidth: T,
+    /// Damping ratio of the loop (–).
+    pub damping: T,
+}
+
+/// How the base is controlled.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BaseControlSetup<T> {
+    /// What the attitude control is told of the arm.
+    pub feedforward: Feedforward,
+    /// Attitude that is kept.
+    pub quat_ND: Quat<T>,
+    /// Whether and how the centre of mass is kept in its place.
+    pub position_hold: Option<PositionHold<T>>,
+    /// The actuators and how they are steered; without them the torque goes to an ideal actuator.
+    pub steering: Option<SteeringSetup<T>>,
+}
+
+impl<T: Scalar> BaseControlSetup<T> {
+    /// The attitude `quat_ND` kept by an ideal actuator; the base goes where the arm pushes it.
+    pub fn ideal(feedforward: Feedforward, quat_ND: Quat<T>) -> Self {
+        Self { feedforward, quat_ND, position_hold: None, steering: None }
+    }
+}
+
+/// Attitude and position loops and the steering behind them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BaseControl<T> {
+    setup: BaseControlSetup<T>,
+    steering: Option<Steering<T>>,
+    /// Where the centre of mass was when it was first seen, inertial axes (m).
+    p_NScm_N: Option<Vec3<T>>,
+}
+
+impl<T: Scalar> BaseControl<T> {
+    pub(crate) fn new(setup: BaseControlSetup<T>) -> Self {
+        Self { steering: setup.steering.as_ref().map(Steering::new), setup, p_NScm_N: None }
+    }
+
+    /// Torque that the base should feel (N·m, base axes) and what the actuators are told. `M_B` is the
+    /// inertia of the whole system with joints locked.
+    pub(crate) fn command<const J: usize>(
+        &mut self,
+        robot: &Robot<T, J>,
+        tuning: &Tuning<T>,
+        M_B: &SpatialInertia<T>,
+        sensed: &State<T, J>,
+        middle: &[SetPoint<T>; J],
+        readings: &ActuatorReadings<T>,
+    ) -> (Vec3<T>, Steered<T>) {
+        let ahead = feedforward_torque(robot, self.setup.feedforward, middle);
+        let quat_NB = Quat::from_matrix(&sensed.X_NB.rotation);
+        let w_NB_B = sensed.V_NB_B.angular;
+        let (I, quat_ND) = (M_B.central(), &self.setup.quat_ND);
+        let torque_B = ahead + attitude_torque(tuning, &I, &quat_NB, w_NB_B, quat_ND);
+        let force_B = self.holding_force(robot, sensed);
+        let steered = match &mut self.steering {
+            None => Steered::nothing(),
+            Some(steering) => {
+                let wanted = SpatialForce::new(torque_B, force_B);
+                let p_BScm_B = M_B.centre_of_mass();
+                steering.steer(&Needs { wanted, w_NB_B, p_BScm_B, period: tuning.period }, readings)
+            }
+        };
+        (torque_B, steered)
+    }
+
+    /// Force that brings the centre of mass back to where it was, base axes (N).
+    fn holding_force<const J: usize>(
+        &mut self,
+        robot: &Robot<T, J>,
+        sensed: &State<T, J>,
+    ) -> Vec3<T> {
+        let Some(hold) = self.setup.position_hold else { return Vec3::zero() };
+        let h = momentum(&kinematics(robot, sensed));
+        let home = *self.p_NScm_N.get_or_insert(h.p_NScm_N);
+        let stiffness = hold.bandwidth * hold.bandwidth * h.mass;
+        let damping = T::from_f64(2.0) * hold.damping * hold.bandwidth;
+        let force_N = (home - h.p_NScm_N) * stiffness - h.linear * damping;
+        sensed.X_NB.rotation.transpose_mul(force_N)
+    }
+
+    /// Do without a unit from now on.
+    pub(crate) fn isolate(&mut self, unit: Unit) {
+        if let Some(steering) = &mut self.steering {
+            steering.isolate(unit);
+        }
+    }
+}

@@ -1,0 +1,243 @@
+//! All groups together: who takes which part of the wanted torque and force.
+
+use crate::steering::{
+    GyroLaw, Modulation, Modulator, Selection, Unloading, WheelLaw, WrenchAxes, gyro_rates,
+    gyro_singularity, thruster_duties, wheel_torques,
+};
+use wrasse_hardware::{ActuatorCommand, ActuatorReadings, Actuators, GYROS, THRUSTERS, WHEELS};
+use wrasse_spatial::{Scalar, SpatialForce, Vec3};
+
+/// A unit of the equipment, by its number in its group.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unit {
+    /// A reaction wheel.
+    Wheel(usize),
+    /// A control moment gyro.
+    Gyro(usize),
+    /// A thruster.
+    Thruster(usize),
+}
+
+/// How the actuators are steered.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SteeringSetup<T> {
+    /// What there is.
+    pub actuators: Actuators<T>,
+    /// How torque is shared among the wheels.
+    pub wheels: WheelLaw<T>,
+    /// How the gimbals are turned.
+    pub gyros: GyroLaw<T>,
+    /// How thrusters are pulsed.
+    pub modulation: Modulation<T>,
+    /// Whether thrusters also give the wanted force; if not, they push the base where they will.
+    pub holds_position: bool,
+    /// When the thrusters empty wheels and gyros; `None`: never.
+    pub unloading: Option<Unloading<T>>,
+}
+
+/// What is needed over the coming period.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Needs<T> {
+    /// Torque (N·m) and force (N) on the bodies, about the system's centre of mass, base axes.
+    pub wanted: SpatialForce<T>,
+    /// Rate of the base, base axes (rad/s).
+    pub w_NB_B: Vec3<T>,
+    /// Centre of mass of the system, base frame (m).
+    pub p_BScm_B: Vec3<T>,
+    /// Control period (s).
+    pub period: T,
+}
+
+/// What the steering could do of what was wanted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SteeringReport<T> {
+    /// What was wanted of the actuators, base axes (N·m, N).
+    pub wanted: SpatialForce<T>,
+    /// What of it no actuator could give (N·m, N).
+    pub missing: SpatialForce<T>,
+    /// Momentum in wheels and gyros, by their readings, base axes (N·m·s).
+    pub stored_B: Vec3<T>,
+    /// Distance of the gyros from a singular setting, det(A Aᵀ) for unit momenta (–); one without
+    /// gyros.
+    pub singularity: T,
+    /// Whether the thrusters are emptying wheels and gyros.
+    pub unloading: bool,
+}
+
+/// What the actuators are told, and what that leaves open.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Steered<T> {
+    /// What the actuators are told.
+    pub command: ActuatorCommand<T>,
+    /// What was wanted and what is missing.
+    pub report: SteeringReport<T>,
+}
+
+impl<T: Scalar> Steered<T> {
+    /// Nothing is asked and nothing is told.
+    pub fn nothing() -> Self {
+        let none = SpatialForce::zero();
+        Self {
+            command: ActuatorCommand::default(),
+            report: SteeringReport {
+                wanted: none,
+                missing: none,
+                stored_B: Vec3::zero(),
+                singularity: T::one(),
+                unloading: false,
+            },
+        }
+    }
+}
+
+/// Steering, with what it remembers from period to period.
+#[derive(Debug, Clone, Copy)]
+pub struct Steering<T> {
+    setup: SteeringSetup<T>,
+    usable_wheels: [bool; WHEELS],
+    usable_gyros: [bool; GYROS],
+    usable_thrusters: [bool; THRUSTERS],
+    modulators: [Modulator<T>; THRUSTERS],
+    /// Time since the start (s): some laws shake the gimbals.
+    time: T,
+}
+
+impl<T: Scalar> Steering<T> {
+    /// Steering that has all units.
+    pub fn new(setup: &SteeringSetup<T>) -> Self {
+        Self {
+            setup: *setup,
+            usable_wheels: [true; WHEELS],
+            usable_gyros: [true; GYROS],
+            usable_thrusters: [true; THRUSTERS],
+            modulators: [Modulator::default(); THRUSTERS],
+            time: T::zero(),
+        }
+    }
+
+    /// Do without a unit from now on.
+    pub fn isolate(&mut self, unit: Unit) {
+        let (flags, i): (&mut [bool], usize) = match unit {
+            Unit::Wheel(i) => (&mut self.usable_wheels, i),
+            Unit::Gyro(i) => (&mut self.usable_gyros, i),
+            Unit::Thruster(i) => (&mut self.usable_thrusters, i),
+        };
+        if let Some(usable) = flags.get_mut(i) {
+            *usable = false;
+        }
+    }
+
+    /// What the actuators are told for the coming period.
+    ///
+    /// Gyros come first, then wheels. Thrusters give the force, what of the torque those cannot give,
+    /// and what empties them. They are pulsed: what they will really give over the period is taken off
+    /// before gyros and wheels are told, so these smooth the pulses.
+    pub fn steer(&mut self, needs: &Needs<T>, readings: &ActuatorReadings<T>) -> Steered<T> {
+        let actuators = self.setup.actuators;
+        let mut steered = Steered::nothing();
+        let stored_B = actuators.gyro_momentum(&readings.gimbal_angle)
+            + actuators.wheel_momentum(&readings.wheel_speed);
+        let mut missing = needs.wanted;
+        let mut rest_B = needs.wanted.torque;
+        if !actuators.thrusters.is_empty() {
+            let mut ask = needs.wanted;
+            if self.stores_momentum() {
+                let (_, _, missing_B) = self.inside(rest_B, needs, stored_B, readings);
+                ask.torque = missing_B + self.unloading_torque(stored_B);
+            }
+            let (p_BScm_B, thrusters) = (needs.p_BScm_B, &actuators.thrusters);
+            let holds = self.setup.holds_position;
+            let controlled = if holds { WrenchAxes::ALL } else { WrenchAxes::TORQUE };
+            let selection =
+                thruster_duties(thrusters, &self.usable_thrusters, p_BScm_B, &ask, controlled);
+            missing.torque = selection.missing.torque;
+            missing.force = if holds { selection.missing.force } else { Vec3::zero() };
+            rest_B -= self.pulse(&selection, needs, &mut steered.command).torque;
+        }
+        if self.stores_momentum() {
+            let (wheels, gyros, missing_B) = self.inside(rest_B, needs, stored_B, readings);
+            steered.command.wheel_torque = wheels;
+            steered.command.gimbal_rate = gyros;
+            missing.torque = missing_B;
+        }
+        steered.report = SteeringReport {
+            wanted: needs.wanted,
+            missing,
+            stored_B,
+            singularity: if actuators.gyros.is_empty() {
+                T::one()
+            } else {
+                gyro_singularity(&actuators.gyros, &readings.gimbal_angle)
+            },
+            unloading: self.setup.unloading.is_some_and(|u| u.active),
+        };
+        self.time += needs.period;
+        steered
+    }
+
+    /// Whether anything can take up momentum.
+    fn stores_momentum(&self) -> bool {
+        let actuators = &self.setup.actuators;
+        !(actuators.wheels.is_empty() && actuators.gyros.is_empty())
+    }
+
+    /// Torque on the bodies by what turns inside them: motor torques of the wheels (N·m), gimbal rates
+    /// (rad/s), and what of the torque they cannot give.
+    ///
+    /// The bodies feel `-ḣ - w × h` of the momentum h inside, so `ḣ = -τ - w × h` is asked for.
+    fn inside(
+        &self,
+        torque_B: Vec3<T>,
+        needs: &Needs<T>,
+        stored_B: Vec3<T>,
+        readings: &ActuatorReadings<T>,
+    ) -> ([T; WHEELS], [T; GYROS], Vec3<T>) {
+        let setup = &self.setup;
+        let Actuators { wheels, gyros, .. } = &setup.actuators;
+        let mut left_B = -torque_B - needs.w_NB_B.cross(stored_B);
+        let mut rates = [T::zero(); GYROS];
+        let mut torques = [T::zero(); WHEELS];
+        if !gyros.is_empty() {
+            let (usable, angles) = (&self.usable_gyros, &readings.gimbal_angle);
+            let found = gyro_rates(gyros, usable, &setup.gyros, left_B, angles, self.time);
+            (rates, left_B) = (found.values, found.missing_B);
+        }
+        if !wheels.is_empty() {
+            let (usable, speeds) = (&self.usable_wheels, &readings.wheel_speed);
+            let found = wheel_torques(wheels, usable, &setup.wheels, left_B, speeds);
+            (torques, left_B) = (found.values, found.missing_B);
+        }
+        (torques, rates, -left_B)
+    }
+
+    /// Torque by which the thrusters empty what is stored (N·m, base axes).
+    fn unloading_torque(&mut self, stored_B: Vec3<T>) -> Vec3<T> {
+        match &mut self.setup.unloading {
+            None => Vec3::zero(),
+            Some(unloading) => unloading.torque(stored_B),
+        }
+    }
+
+    /// Turn shares of full force into pulses; what these give on average over the period, about the
+    /// system's centre of mass.
+    fn pulse(
+        &mut self,
+        selection: &Selection<T>,
+        needs: &Needs<T>,
+        command: &mut ActuatorCommand<T>,
+    ) -> SpatialForce<T> {
+        let mut given = SpatialForce::zero();
+        let thrusters = self.setup.actuators.thrusters;
+        for (i, thruster) in thrusters.iter().enumerate() {
+            let modulator = &mut self.modulators[i];
+            let shortest = thruster.minimum_on_time;
+            let law = &self.setup.modulation;
+            let input = law.input_for(selection.duty[i]);
+            let on = modulator.on_time(law, shortest, input, needs.period);
+            command.thruster_on[i] = on;
+            let force = thruster.direction_B * (thruster.force * on / needs.period);
+            given += SpatialForce::new((thruster.position_B - needs.p_BScm_B).cross(force), force);
+        }
+        given
+    }
+}
