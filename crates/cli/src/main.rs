@@ -7,6 +7,7 @@
 mod check;
 mod eval;
 mod eval_answer;
+mod hardware;
 mod input;
 mod progress;
 mod run;
@@ -31,6 +32,7 @@ enum Command {
     Run(run::Run),
     Check(check::Check),
     Vehicles(vehicles::Vehicles),
+    Hardware(hardware::Hardware),
     Eval(eval::Eval),
     Schema(schema::Schema),
 }
@@ -40,6 +42,7 @@ fn main() -> ExitCode {
         Command::Run(run) => run.go(),
         Command::Check(check) => check.go(),
         Command::Vehicles(vehicles) => vehicles.go(),
+        Command::Hardware(hardware) => hardware.go(),
         Command::Eval(eval) => eval.go(),
         Command::Schema(schema) => schema.go(),
     }

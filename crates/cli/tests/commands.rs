@@ -298,6 +298,7 @@ fn the_help_of_each_command_says_what_it_does_and_how_it_ends() {
         ("run", vec!["Fly a mission", "--out", "--json", "--error-estimate", "Exit code 0"]),
         ("check", vec!["every complaint at once", "Exit code 0"]),
         ("vehicles", vec!["List the vehicles", "NAME"]),
+        ("hardware", vec!["List the wheels, gyros, thrusters and sensors", "NAME"]),
         ("eval", vec!["at given states", "--states"]),
         ("schema", vec!["JSON Schema", "vehicle", "mission"]),
     ];
