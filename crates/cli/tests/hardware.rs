@@ -1,4 +1,5 @@
 //! `wrasse hardware` as a user meets it.
+#![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
 
 mod binary;
 

@@ -1,11 +1,10 @@
 //! Control of the base: the torque and force that it should feel, and who gives them.
 
 use crate::attitude_control::attitude_torque;
-use crate::feedforward::feedforward_torque;
 use crate::law::{Feedforward, Tuning};
 use crate::steering::{Needs, Steered, Steering, SteeringSetup, Unit};
 use wrasse_dynamics::{Robot, State, kinematics, momentum};
-use wrasse_hardware::{ActuatorReadings, SetPoint};
+use wrasse_hardware::ActuatorReadings;
 use wrasse_spatial::{Quat, Scalar, SpatialForce, SpatialInertia, Vec3};
 
 /// How the centre of mass of the system is kept where it was at the start.
@@ -52,21 +51,20 @@ impl<T: Scalar> BaseControl<T> {
     }
 
     /// Torque that the base should feel (N·m, base axes) and what the actuators are told. `M_B` is the
-    /// inertia of the whole system with joints locked.
+    /// inertia of the whole system with joints locked, `ahead_B` what is known to be needed (N·m).
     pub(crate) fn command<const J: usize>(
         &mut self,
         robot: &Robot<T, J>,
         tuning: &Tuning<T>,
         M_B: &SpatialInertia<T>,
         sensed: &State<T, J>,
-        middle: &[SetPoint<T>; J],
+        ahead_B: Vec3<T>,
         readings: &ActuatorReadings<T>,
     ) -> (Vec3<T>, Steered<T>) {
-        let ahead = feedforward_torque(robot, self.setup.feedforward, middle);
         let quat_NB = Quat::from_matrix(&sensed.X_NB.rotation);
         let w_NB_B = sensed.V_NB_B.angular;
         let (I, quat_ND) = (M_B.central(), &self.setup.quat_ND);
-        let torque_B = ahead + attitude_torque(tuning, &I, &quat_NB, w_NB_B, quat_ND);
+        let torque_B = ahead_B + attitude_torque(tuning, &I, &quat_NB, w_NB_B, quat_ND);
         let force_B = self.holding_force(robot, sensed);
         let steered = match &mut self.steering {
             None => Steered::nothing(),

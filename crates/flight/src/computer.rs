@@ -3,6 +3,7 @@
 use crate::base_control::{BaseControl, BaseControlSetup};
 use crate::computed_torque::computed_torque;
 use crate::door::{Axes, Command, Grip, Sensed};
+use crate::feedforward::feedforward_torque;
 use crate::law::{Measurement, Tuning};
 use crate::navigation::{Navigation, NavigationSetup};
 use crate::phase::{Held, JointTarget, Path, Phase};
@@ -13,9 +14,10 @@ use crate::resolved_motion::{
 use crate::sequence::{BadPhase, NoWay, Sequence};
 use crate::steering::{Steered, Unit};
 use crate::tool_pose::{Unreachable, joints_for_tool};
+use crate::tool_wrench::against_tool_wrench;
 use crate::trajectory::ToolMotion;
 use wrasse_dynamics::{Frame, Robot, State, kinematics, mass_matrix, momentum};
-use wrasse_hardware::{ActuatorReadings, JointLimits, SetPoint, SetPointMotion};
+use wrasse_hardware::{JointLimits, SetPoint, SetPointMotion};
 use wrasse_spatial::{
     Dual, Pose, Quat, Scalar, SpatialInertia, SpatialMomentum, SpatialVelocity, Vec3, turned_by,
 };
@@ -123,7 +125,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
                 acceleration: self.motion.qddot[j],
             };
         }
-        let mut command = self.command_between(&state, &sensed.actuators, &next);
+        let mut command = self.command_between(&state, sensed, &next);
         command.grip = grip;
         self.now = next;
         Ok(command)
@@ -336,34 +338,48 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     /// What the actuators are told between two sets of set-points.
     fn command_between(
         &mut self,
-        sensed: &State<T, J>,
-        readings: &ActuatorReadings<T>,
+        state: &State<T, J>,
+        sensed: &Sensed<T, J>,
         next: &[SetPoint<T>; J],
     ) -> Command<T, J> {
         let tuning = self.setup.tuning;
         let half = T::from_f64(0.5);
         // Torques are constant over the period: those of its middle are right on average.
-        let (mut middle, mut ahead) = (self.now, *sensed);
+        let (mut middle, mut ahead) = (self.now, *state);
         let mut acceleration = [T::zero(); J];
         for j in self.robot.joints() {
             let blend = SetPointMotion::between(self.now[j], next[j], tuning.period);
             middle[j] = blend.at(tuning.period * half);
             acceleration[j] = (next[j].rate - self.now[j].rate) / tuning.period;
             let gain = acceleration[j] * tuning.period * half;
-            ahead.q[j] += (sensed.v[j] + gain * half) * tuning.period * half;
+            ahead.q[j] += (state.v[j] + gain * half) * tuning.period * half;
             ahead.v[j] += gain;
         }
         let coasting = matches!(self.path, Path::Still(Held::Nothing));
-        let (effort, (attitude_torque_B, steered)) = if coasting {
-            ([T::zero(); J], (Vec3::zero(), Steered::nothing()))
-        } else {
+        let (mut effort, mut attitude_torque_B) = ([T::zero(); J], Vec3::zero());
+        let mut steered = Steered::nothing();
+        if !coasting {
             let (law, robot) = (self.setup.assignment.law, &self.robot);
+            effort = computed_torque(robot, law, &tuning, &ahead, &middle, &acceleration);
+            let mut ahead_B = feedforward_torque(robot, self.setup.base.feedforward, &middle);
+            if let Some(F_E) = &sensed.tool_wrench_E {
+                let tool = &self.setup.assignment.tool;
+                let (against, turning_B) = against_tool_wrench(robot, law, tool, state, F_E);
+                for j in robot.joints() {
+                    effort[j] += against[j];
+                }
+                ahead_B += turning_B;
+            }
             let M_B = self.locked_inertia();
-            (
-                computed_torque(robot, law, &tuning, &ahead, &middle, &acceleration),
-                self.base_control.command(robot, &tuning, &M_B, sensed, &middle, readings),
-            )
-        };
+            (attitude_torque_B, steered) = self.base_control.command(
+                &self.robot,
+                &tuning,
+                &M_B,
+                state,
+                ahead_B,
+                &sensed.actuators,
+            );
+        }
         Command {
             set_points: *next,
             effort: self.within_limits(effort),

@@ -4,7 +4,7 @@ use crate::steering::SteeringReport;
 use crate::trajectory::ToolMotion;
 use wrasse_dynamics::State;
 use wrasse_hardware::{ActuatorCommand, ActuatorReadings, SetPoint, TrackerReading};
-use wrasse_spatial::{Pose, Real, SpatialVelocity, Vec3};
+use wrasse_spatial::{Pose, Real, SpatialForce, SpatialVelocity, Vec3};
 
 /// What the sensors say at the start of a control period.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,6 +15,8 @@ pub struct Sensed<T, const J: usize> {
     pub joints: JointReading<T, J>,
     /// What the actuators of the base say of themselves.
     pub actuators: ActuatorReadings<T>,
+    /// What pushes at the tool, at its origin in its axes (N·m, N), by a force-torque sensor.
+    pub tool_wrench_E: Option<SpatialForce<T>>,
 }
 
 /// What is known of the base.
@@ -51,6 +53,7 @@ impl<T: Real, const J: usize> Sensed<T, J> {
             base: BaseReading::Known(state.X_NB, state.V_NB_B),
             joints: JointReading::Known(state.q, state.v),
             actuators,
+            tool_wrench_E: None,
         }
     }
 }

@@ -21,6 +21,7 @@ mod phase;
 mod resolved_motion;
 mod sequence;
 mod tool_pose;
+mod tool_wrench;
 
 pub use attitude_control::attitude_torque;
 pub use attitude_estimator::{AttitudeEstimate, AttitudeEstimator, EstimatorSetup, TRACKER_MEMORY};
@@ -39,3 +40,4 @@ pub use resolved_motion::{
 };
 pub use sequence::{BadPhase, LONGEST, NoWay};
 pub use tool_pose::{Unreachable, joints_for_tool};
+pub use tool_wrench::against_tool_wrench;

@@ -49,6 +49,20 @@ impl AppliedWrench {
     }
 }
 
+/// What these do to a tool at `t` (s), at its origin in its axes.
+pub(crate) fn felt(
+    wrenches: &[AppliedWrench],
+    tool: &Frame<f64>,
+    t: f64,
+    k: &Kinematics<'_, f64, JOINTS>,
+) -> SpatialForce<f64> {
+    let on_tool = wrenches.iter().filter(|wrench| wrench.on.body == tool.body);
+    let on_body = on_tool.fold(SpatialForce::zero(), |sum, wrench| sum + wrench.on_body(t, k));
+    let at_tool = on_body.about(tool.X_BF.translation);
+    let R_BE = &tool.X_BF.rotation;
+    SpatialForce::new(R_BE.transpose_mul(at_tool.torque), R_BE.transpose_mul(at_tool.force))
+}
+
 /// All of them together, as the world asks for them.
 pub(crate) fn together(wrenches: Vec<AppliedWrench>) -> OutsideWrench<JOINTS> {
     Box::new(move |t, k| {

@@ -254,7 +254,7 @@ impl<'a> Flight<'a> {
 
     /// What the flight computer says to what the sensors say.
     fn command(&mut self) -> Result<Command<f64, JOINTS>, End> {
-        let sensed = self.sensing.read(&self.world, self.case.period());
+        let sensed = self.sensing.read(self.case, &self.world);
         let quat_NB = self.world.system().quat_NB;
         let time = self.world.time();
         // What the planning let pass, the truth may still refuse: by then things have moved.

@@ -99,7 +99,10 @@ pub(crate) fn observe(
     let (mounts, reaction_B) = mounts(&k, &dynamics);
     let mut seen = Observation {
         dynamics,
-        torque_B: world.actuator_torque_B() + dynamics.force.base.torque,
+        torque_B: match case.turning {
+            Turning::Fitted => world.turning_torque_B(),
+            Turning::Ideal(_) => world.actuator_torque_B() + dynamics.force.base.torque,
+        },
         reaction_B,
         stored_B: match case.turning {
             Turning::Fitted => command.steering.stored_B,
@@ -142,7 +145,11 @@ fn of_equipment(
     let largest = |uses: &mut dyn Iterator<Item = f64>| uses.fold(f64::NAN, f64::max);
     let wheels = actuators.wheels.iter().zip(readings.wheel_speed);
     let gyros = actuators.gyros.iter().zip(readings.gimbal_rate);
-    let motors = (0..actuators.gyros.len()).map(|i| world.gimbal_motor_torque()[i].abs());
+    let motor_torque = if actuators.gyros.is_empty() {
+        f64::NAN
+    } else {
+        world.gimbal_motor_torque().iter().fold(0.0, |most: f64, x| most.max(x.abs()))
+    };
     let fitted = case.turning == Turning::Fitted;
     let missing = |x: f64| if fitted { x } else { f64::NAN };
     let tank = actuators.tank.map_or(f64::NAN, |tank| tank.propellant);
@@ -152,7 +159,7 @@ fn of_equipment(
         estimate_error,
         largest(&mut wheels.map(|(w, speed)| speed.abs() / w.speed_limit)),
         largest(&mut gyros.map(|(g, rate)| rate.abs() / g.rate_limit)),
-        largest(&mut motors.into_iter()),
+        motor_torque,
         if actuators.gyros.is_empty() { f64::NAN } else { missing(command.steering.singularity) },
         tank - readings.propellant,
     ]

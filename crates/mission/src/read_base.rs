@@ -16,7 +16,7 @@ use wrasse_flight::steering::{
 use wrasse_flight::{BaseControlSetup, EstimatorSetup, Feedforward, NavigationSetup, PositionHold};
 use wrasse_hardware::{AttitudeActuator, Sensors};
 use wrasse_spatial::{SpatialForce, Vec3};
-use wrasse_vehicle::{Equipment, read_equipment, read_sensors};
+use wrasse_vehicle::{Equipment, check_equipment, read_equipment, read_sensors};
 use wrasse_world::Failure;
 
 /// Wheels, gyros and thrusters of this mission.
@@ -24,8 +24,11 @@ pub(crate) fn equipment(r: &mut Reading<'_>, file: &MissionFile) -> Equipment {
     match &file.actuators {
         None => r.vehicle.equipment.clone(),
         Some(given) => {
-            let (equipment, found) = read_equipment(r.document, at!["actuators"], given);
+            let path = at!["actuators"];
+            let (equipment, found) = read_equipment(r.document, path, given);
             r.complaints.extend(found);
+            let robot = &r.vehicle.robot;
+            r.complaints.extend(check_equipment(r.document, path, &equipment, robot));
             equipment
         }
     }
@@ -107,7 +110,7 @@ pub(crate) fn base_control(
         damping: r
             .not_negative(at!["control", "position_hold", "damping_ratio"], hold.damping_ratio),
     });
-    if position_hold.is_some() && !fitted.is_some_and(|e| !e.actuators.thrusters.is_empty()) {
+    if position_hold.is_some() && fitted.is_none_or(|e| e.actuators.thrusters.is_empty()) {
         let message = "only thrusters can hold a position: there are none".into();
         let help = "add [[actuators.thruster]], or leave position_hold out";
         r.error(at!["control", "position_hold"], message, help);

@@ -3,7 +3,7 @@
 use crate::format::MissionFile;
 use crate::mission::{Case, Mission, Study};
 use crate::phase_format::PhaseFile;
-use crate::quantity::quantities;
+use crate::quantity::{Quantity, quantities};
 use crate::read_base::{
     Turning, applied_wrenches, base_control, equipment, failures, navigation, sensors, turning,
 };
@@ -153,7 +153,7 @@ fn read_case(document: &Document, labels: Vec<(String, String)>) -> Result<Case,
     let fitted = (turning == Turning::Fitted).then_some(&equipment);
     let (base_control, navigation) =
         (base_control(r, &file, fitted), navigation(r, &file, sensors.as_ref()));
-    let setup = setup(r, &file, base_control, navigation);
+    let setup = setup(r, &file, &base_control, &navigation);
     let (failures, wrenches) = (failures(r, &file, &equipment), applied_wrenches(r, &file));
     let payloads = payloads(r, &file, &start);
     let base = base_attitude(r, &file, &start);
@@ -162,20 +162,7 @@ fn read_case(document: &Document, labels: Vec<(String, String)>) -> Result<Case,
     let payload_names: Vec<String> = payloads.iter().map(|p| p.name.clone()).collect();
     let phases = file.phase.iter().enumerate();
     let phases = phases.filter_map(|(i, p)| phase(r, i, p, &payload_names, &file)).collect();
-    let joints: Vec<(String, bool)> = vehicle
-        .joint_names
-        .iter()
-        .enumerate()
-        .map(|(j, name)| (name.clone(), vehicle.robot.joint(j).kind == JointKind::Revolute))
-        .collect();
-    let quantities = quantities(&joints);
-    let mut requirements = vec![];
-    for (i, text) in file.requirements.iter().enumerate() {
-        match Requirement::parse(text, &quantities, &names) {
-            Ok(requirement) => requirements.push(requirement),
-            Err(bad) => r.complaints.push(complaint_within(document, i, text, bad)),
-        }
-    }
+    let (quantities, requirements) = requirements(r, &file, &names);
     let torque = torque_joints(r, &file);
     let output_rate = r.positive(at!["output", "rate_hz"], file.output.rate_hz);
     let why = "the first and the last instant are always drawn, and more do not fit in a picture";
@@ -196,6 +183,7 @@ fn read_case(document: &Document, labels: Vec<(String, String)>) -> Result<Case,
         turning,
         equipment,
         sensors,
+        feels_wrench: file.control.feel_tool_wrench,
         failures,
         wrenches,
         seed: file.seed,
@@ -208,6 +196,30 @@ fn read_case(document: &Document, labels: Vec<(String, String)>) -> Result<Case,
         output_rate,
         snapshots: file.output.snapshots,
     })
+}
+
+/// The quantities that are watched, and what is required of them.
+fn requirements(
+    r: &mut Reading<'_>,
+    file: &MissionFile,
+    phases: &[String],
+) -> (Vec<Quantity>, Vec<Requirement>) {
+    let vehicle = r.vehicle;
+    let joints: Vec<(String, bool)> = vehicle
+        .joint_names
+        .iter()
+        .enumerate()
+        .map(|(j, name)| (name.clone(), vehicle.robot.joint(j).kind == JointKind::Revolute))
+        .collect();
+    let quantities = quantities(&joints);
+    let mut requirements = vec![];
+    for (i, text) in file.requirements.iter().enumerate() {
+        match Requirement::parse(text, &quantities, phases) {
+            Ok(requirement) => requirements.push(requirement),
+            Err(bad) => r.complaints.push(complaint_within(r.document, i, text, bad)),
+        }
+    }
+    (quantities, requirements)
 }
 
 fn vehicle_of(file: &MissionFile, document: &Document) -> Result<Vehicle, Vec<Complaint>> {

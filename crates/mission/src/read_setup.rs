@@ -208,8 +208,8 @@ const UNLIMITED: f64 = 1e3;
 pub(crate) fn setup(
     r: &mut Reading<'_>,
     file: &MissionFile,
-    base: BaseControlSetup<f64>,
-    navigation: NavigationSetup<f64>,
+    base: &BaseControlSetup<f64>,
+    navigation: &NavigationSetup<f64>,
 ) -> Setup<f64, JOINTS> {
     let c = &file.control;
     let path = |key| [Step::Key("control"), Step::Key(key)];
@@ -246,8 +246,8 @@ pub(crate) fn setup(
             damped_below: r.positive(&path("damped_below"), c.damped_below),
         },
         joints,
-        base,
-        navigation,
+        base: *base,
+        navigation: *navigation,
         measurement: match c.measurement {
             MeasurementFile::None => Measurement::None,
             MeasurementFile::Base => Measurement::Base,

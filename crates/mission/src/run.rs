@@ -60,7 +60,8 @@ pub fn run(
 
 fn vehicle_card(case: &Case) -> VehicleCard {
     let vehicle = &case.vehicle;
-    let rows = vehicle.provenance.iter().map(|p| ProvenanceRow {
+    let provenance = vehicle.provenance.iter().chain(&case.equipment.provenance);
+    let rows = provenance.map(|p| ProvenanceRow {
         of: p.of.clone(),
         grade: match p.grade {
             Grade::Published => "published",

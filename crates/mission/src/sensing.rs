@@ -1,6 +1,8 @@
 //! From the truth through the sensors to what the flight computer is given.
 
+use crate::applied_wrench::felt;
 use crate::mission::Case;
+use wrasse_dynamics::kinematics;
 use wrasse_flight::{BaseReading, JointReading, Sensed};
 use wrasse_hardware::Sensors;
 use wrasse_vehicle::JOINTS;
@@ -20,11 +22,15 @@ impl Sensing {
         Self { suite, blinded: false }
     }
 
-    /// What the sensors say now, with the control period (s).
-    pub(crate) fn read(&mut self, world: &World<JOINTS>, period: f64) -> Sensed<f64, JOINTS> {
-        let state = world.state();
-        let actuators = world.actuator_readings();
-        let perfect = Sensed::perfect(&state, actuators);
+    /// What the sensors say now.
+    pub(crate) fn read(&mut self, case: &Case, world: &World<JOINTS>) -> Sensed<f64, JOINTS> {
+        let (state, period) = (world.state(), case.period());
+        let mut perfect = Sensed::perfect(&state, world.actuator_readings());
+        if case.feels_wrench {
+            let k = kinematics(world.robot(), &state);
+            let tool = &case.setup.assignment.tool;
+            perfect.tool_wrench_E = Some(felt(&case.wrenches, tool, world.time(), &k));
+        }
         let Some((sensors, suite)) = &mut self.suite else { return perfect };
         let (quat_NB, w_NB_B) = (world.system().quat_NB, state.V_NB_B.angular);
         let read = suite.read(quat_NB, w_NB_B, &state.q, world.time(), period);
@@ -38,10 +44,11 @@ impl Sensing {
                 v_NB_N: state.X_NB.rotation * state.V_NB_B.linear,
             },
         };
-        let joints = match sensors.encoder_step > 0.0 {
-            true => JointReading::Encoders(read.q),
-            false => perfect.joints,
+        let joints = if sensors.encoder_step > 0.0 {
+            JointReading::Encoders(read.q)
+        } else {
+            perfect.joints
         };
-        Sensed { base, joints, actuators }
+        Sensed { base, joints, ..perfect }
     }
 }

@@ -161,7 +161,7 @@ pub(crate) struct Acting<const J: usize> {
     /// The thrusters on the base, at its origin, in base axes.
     thrust_B: SpatialForce<f64>,
     /// Torque of wheels and gyros on the base, base axes (N·m).
-    turning_B: Vec3<f64>,
+    pub(crate) turning_B: Vec3<f64>,
     /// On each wheel about its axis (N·m).
     wheel_torque: [f64; WHEELS],
     /// Of each gimbal (rad/s²).

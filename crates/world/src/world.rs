@@ -249,6 +249,12 @@ impl<const J: usize> World<J> {
         let (acceleration, w_NB_B) = (acting.gimbal_acceleration, state.V_NB_B.angular);
         self.gyros.motor_torques(&s.gimbal_angle, &acceleration, w_NB_B, wdot_NB_B)
     }
+    /// Torque of wheels and gyros on the base now (N·m, base axes).
+    pub fn turning_torque_B(&self) -> Vec3<f64> {
+        let (t, s) = (self.into_period, &self.system);
+        let state = self.state();
+        self.acting(s, &kinematics(&self.robot, &state), t, t).turning_B
+    }
     /// What is in the grips: the frame that holds it, and its matter seen from there.
     pub fn held(&self) -> &[(Frame<f64>, Payload<f64>)] {
         &self.held

@@ -100,7 +100,15 @@ pub struct Steering<T> {
     modulators: [Modulator<T>; THRUSTERS],
     /// Time since the start (s): some laws shake the gimbals.
     time: T,
+    /// What wheels and gyros stored when they were last read (N·m·s), and the change that was
+    /// due over the period (N·m·s), base axes.
+    before: Option<(Vec3<T>, Vec3<T>)>,
+    /// What they were asked for and have not yet given (N·m·s).
+    owed_B: Vec3<T>,
 }
+
+/// How fast wheels and gyros are asked for what they owe (1/s): slower than their servos answer.
+const CATCH_UP: f64 = 10.0;
 
 impl<T: Scalar> Steering<T> {
     /// Steering that has all units.
@@ -112,6 +120,8 @@ impl<T: Scalar> Steering<T> {
             usable_thrusters: [true; THRUSTERS],
             modulators: [Modulator::default(); THRUSTERS],
             time: T::zero(),
+            before: None,
+            owed_B: Vec3::zero(),
         }
     }
 
@@ -137,6 +147,7 @@ impl<T: Scalar> Steering<T> {
         let mut steered = Steered::nothing();
         let stored_B = actuators.gyro_momentum(&readings.gimbal_angle)
             + actuators.wheel_momentum(&readings.wheel_speed);
+        self.settle(stored_B);
         let mut missing = needs.wanted;
         let mut rest_B = needs.wanted.torque;
         if !actuators.thrusters.is_empty() {
@@ -156,6 +167,9 @@ impl<T: Scalar> Steering<T> {
         }
         if self.stores_momentum() {
             let (wheels, gyros, missing_B) = self.inside(rest_B, needs, stored_B, readings);
+            // What is missing is not owed: it was told.
+            let due_B = due(rest_B, needs, stored_B) + missing_B;
+            self.before = Some((stored_B, due_B * needs.period));
             steered.command.wheel_torque = wheels;
             steered.command.gimbal_rate = gyros;
             missing.torque = missing_B;
@@ -181,10 +195,16 @@ impl<T: Scalar> Steering<T> {
         !(actuators.wheels.is_empty() && actuators.gyros.is_empty())
     }
 
+    /// Book what wheels and gyros gave of what they were last asked for: friction, servos and motors
+    /// that are slower than the period, a gimbal that is stuck all leave something owing.
+    fn settle(&mut self, stored_B: Vec3<T>) {
+        if let Some((before_B, due_B)) = self.before {
+            self.owed_B += due_B - (stored_B - before_B);
+        }
+    }
+
     /// Torque on the bodies by what turns inside them: motor torques of the wheels (N·m), gimbal rates
     /// (rad/s), and what of the torque they cannot give.
-    ///
-    /// The bodies feel `-ḣ - w × h` of the momentum h inside, so `ḣ = -τ - w × h` is asked for.
     fn inside(
         &self,
         torque_B: Vec3<T>,
@@ -194,7 +214,7 @@ impl<T: Scalar> Steering<T> {
     ) -> ([T; WHEELS], [T; GYROS], Vec3<T>) {
         let setup = &self.setup;
         let Actuators { wheels, gyros, .. } = &setup.actuators;
-        let mut left_B = -torque_B - needs.w_NB_B.cross(stored_B);
+        let mut left_B = due(torque_B, needs, stored_B) + self.owed_B * T::from_f64(CATCH_UP);
         let mut rates = [T::zero(); GYROS];
         let mut torques = [T::zero(); WHEELS];
         if !gyros.is_empty() {
@@ -240,4 +260,10 @@ impl<T: Scalar> Steering<T> {
         }
         given
     }
+}
+
+/// Change of the momentum inside by which the bodies feel a torque (N·m, base axes). They feel
+/// `-ḣ - w × h` of the momentum h inside, so it is `ḣ = -τ - w × h`.
+fn due<T: Scalar>(torque_B: Vec3<T>, needs: &Needs<T>, stored_B: Vec3<T>) -> Vec3<T> {
+    -torque_B - needs.w_NB_B.cross(stored_B)
 }

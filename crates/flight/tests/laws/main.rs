@@ -20,4 +20,5 @@ mod postures;
 mod resolved_motion;
 mod singular_postures;
 mod tool_pose;
+mod tool_wrench;
 mod worst;
