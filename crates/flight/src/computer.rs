@@ -9,7 +9,7 @@ use crate::navigation::{Navigation, NavigationSetup};
 use crate::phase::{Held, JointTarget, Path, Phase};
 use crate::resolved_motion::{
     Assignment, Belief, JointUse, Resolved, ResolvedMotion, WantedMotion, answered_motion,
-    answered_twist, resolved_motion, task_jacobian,
+    answered_twist, moved_on, resolved_motion, task_jacobian,
 };
 use crate::sequence::{BadPhase, NoWay, Sequence};
 use crate::steering::{Steered, Unit};
@@ -19,7 +19,7 @@ use crate::trajectory::ToolMotion;
 use wrasse_dynamics::{Frame, Robot, State, kinematics, mass_matrix, momentum};
 use wrasse_hardware::{JointLimits, SetPoint, SetPointMotion};
 use wrasse_spatial::{
-    Dual, Pose, Quat, Scalar, SpatialInertia, SpatialMomentum, SpatialVelocity, Vec3, turned_by,
+    Dual, Pose, Quat, Scalar, SpatialInertia, SpatialMomentum, SpatialVelocity, Vec3,
 };
 
 /// How a flight computer is set up.
@@ -482,15 +482,6 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     pub fn done(&self) -> bool {
         self.sequence.is_done()
     }
-}
-
-/// A pose after a period of motion with a mean twist.
-fn moved_on<T: Scalar>(X_NB: &Pose<T>, mean: &SpatialVelocity<T>, period: T) -> Pose<T> {
-    let quat = turned_by(Quat::from_matrix(&X_NB.rotation), mean.angular * period);
-    // The translation is in axes that turn: half the turn is felt on average.
-    let half = Quat::exp(mean.angular * (period * T::from_f64(0.5))).to_matrix();
-    let way = X_NB.rotation * (half * mean.linear) * period;
-    Pose::from_quat(quat, X_NB.translation + way)
 }
 
 /// A tool that stays where it is.

@@ -8,7 +8,8 @@ use wrasse_dynamics::{
     generalized_jacobian, jacobian, kinematics, mass_matrix, velocity_from_momentum,
 };
 use wrasse_spatial::{
-    Dual, Mat3, Pose, Real, SpatialAcceleration, SpatialMomentum, SpatialVelocity, Vec3,
+    Dual, Mat3, Pose, Quat, Real, Scalar, SpatialAcceleration, SpatialMomentum, SpatialVelocity,
+    Vec3, turned_by,
 };
 
 /// What is asked of the arm: which point, in which axes, how much of its motion, by which law.
@@ -315,4 +316,13 @@ fn over_duals<T: Real>(to: &Assignment<T>) -> Assignment<Dual<T>> {
         law: to.law,
         damped_below: Dual::new(to.damped_below, T::zero()),
     }
+}
+
+/// A pose after a period of motion with a mean twist.
+pub(crate) fn moved_on<T: Scalar>(X_NB: &Pose<T>, mean: &SpatialVelocity<T>, period: T) -> Pose<T> {
+    let quat = turned_by(Quat::from_matrix(&X_NB.rotation), mean.angular * period);
+    // The translation is in axes that turn: half the turn is felt on average.
+    let half = Quat::exp(mean.angular * (period * T::from_f64(0.5))).to_matrix();
+    let way = X_NB.rotation * (half * mean.linear) * period;
+    Pose::from_quat(quat, X_NB.translation + way)
 }

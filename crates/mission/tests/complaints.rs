@@ -66,9 +66,9 @@ fn all_mistakes_of_meaning_are_reported_at_once() {
 
 #[test]
 fn a_mistake_of_shape_does_not_hide_one_of_meaning() {
-    let text = GOOD.replace("vehicle =", "summry = \"\"\nvehicle =").replace("45 deg", "45 kg");
+    let text = GOOD.replace("vehicle =", "summry = \"\"\nvehicle =").replace("45 deg", "45 lb");
     let said = render(&complaints("small.toml", &text), false);
-    assert!(said.contains("`summry`") && said.contains("kg is no unit"), "{said}");
+    assert!(said.contains("`summry`") && said.contains("lb is no unit"), "{said}");
     assert!(said.ends_with("\n2 errors\n"), "{said}");
 }
 
@@ -124,7 +124,7 @@ fn a_comparison_of_too_many_cases_is_refused() {
 #[test]
 fn a_mistake_in_what_rows_share_is_said_once() {
     let rows = "[[compare]]\naxis = \"a\"\nrow = [{ name = \"1\" }, { name = \"2\" }]\n";
-    let text = [&GOOD.replace("45 deg", "45 kg"), rows].concat();
+    let text = [&GOOD.replace("45 deg", "45 lb"), rows].concat();
     let said = render(&complaints("small.toml", &text), false);
     assert!(said.ends_with("\n1 error\n"), "{said}");
 }

@@ -65,12 +65,18 @@ fn functions_of(text: &str) -> Vec<String> {
     after_fn.map(|rest| rest.chars().take_while(|c| in_name(*c)).collect()).collect()
 }
 
-/// Words in backticks that read like the sentence of a test: long, four words or more.
+/// Last parts of the keys of files: they say the unit.
+const UNITS: [&str; 12] =
+    ["s", "s2", "h", "m", "n", "nm", "nms", "kg", "deg", "rad", "rpm", "arcsec"];
+
+/// Words in backticks that read like the sentence of a test: long, four words or more, and not the key
+/// of a file.
 fn test_names(text: &str) -> impl Iterator<Item = &str> {
     in_backticks(text).filter(|word| {
         let plain = word.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
         let words = word.split('_').filter(|part| !part.is_empty()).count();
-        plain && words >= 4 && word.len() >= 20
+        let is_key = word.rsplit('_').next().is_some_and(|last| UNITS.contains(&last));
+        plain && !is_key && words >= 4 && word.len() >= 20
     })
 }
 
