@@ -12,7 +12,6 @@ mod input;
 mod progress;
 mod run;
 mod schema;
-mod size;
 mod vehicles;
 
 use clap::{Parser, Subcommand};
@@ -31,7 +30,6 @@ struct Wrasse {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Run),
-    Size(size::Size),
     Check(check::Check),
     Vehicles(vehicles::Vehicles),
     Hardware(hardware::Hardware),
@@ -42,7 +40,6 @@ enum Command {
 fn main() -> ExitCode {
     match Wrasse::parse().command {
         Command::Run(run) => run.go(),
-        Command::Size(size) => size.go(),
         Command::Check(check) => check.go(),
         Command::Vehicles(vehicles) => vehicles.go(),
         Command::Hardware(hardware) => hardware.go(),
