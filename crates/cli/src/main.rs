@@ -12,6 +12,7 @@ mod input;
 mod progress;
 mod run;
 mod schema;
+mod size;
 mod vehicles;
 
 use clap::{Parser, Subcommand};
@@ -30,6 +31,7 @@ struct Wrasse {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Run),
+    Size(size::Size),
     Check(check::Check),
     Vehicles(vehicles::Vehicles),
     Hardware(hardware::Hardware),
@@ -40,6 +42,7 @@ enum Command {
 fn main() -> ExitCode {
     match Wrasse::parse().command {
         Command::Run(run) => run.go(),
+        Command::Size(size) => size.go(),
         Command::Check(check) => check.go(),
         Command::Vehicles(vehicles) => vehicles.go(),
         Command::Hardware(hardware) => hardware.go(),

@@ -85,6 +85,6 @@ impl Run {
 }
 
 /// What stands where a folder, or one above it, has to be: worth knowing before a long flight.
-fn in_the_way(folder: &Path) -> Option<&Path> {
+pub(crate) fn in_the_way(folder: &Path) -> Option<&Path> {
     folder.ancestors().find(|above| above.exists()).filter(|above| !above.is_dir())
 }

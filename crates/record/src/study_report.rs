@@ -287,7 +287,7 @@ fn flights(outcome: &StudyOutcome) -> String {
         "Requirements",
         "First limit, or how it ended",
     ];
-    table("sizes", &head, &rows) + &error_figure(outcome)
+    table("sizes flown", &head, &rows) + &error_figure(outcome)
 }
 
 /// The momentum envelopes of the gyros, with what the tasks ask on top; of the wheels if there are no

@@ -5,7 +5,7 @@ use crate::judgement::Answer;
 use crate::outcome::{Finding, SetCard, SetKind, SetVerdict, TaskOutcome};
 
 /// The findings, in a fixed order; what does not occur is left out.
-pub fn findings(sets: &[SetCard], tasks: &[TaskOutcome]) -> Vec<Finding> {
+pub(crate) fn findings(sets: &[SetCard], tasks: &[TaskOutcome]) -> Vec<Finding> {
     let all = Verdicts { sets, tasks };
     let parts = [
         all.only_gyros(),

@@ -6,8 +6,12 @@ mod capability;
 mod demand;
 mod envelope;
 mod findings;
+mod flights;
+mod hand_check;
 mod judgement;
 mod outcome;
+mod size;
+mod study;
 
 pub use capability::{Capability, Reach};
 pub use demand::Demand;
@@ -15,8 +19,9 @@ pub use envelope::{
     Facet, Mesh, Piece, Solid, SteeringPath, SteeringReach, ThrusterTorque, facets, first_outside,
     least_flow, singular_surfaces, steering_path, steering_reach, thruster_torque,
 };
-pub use findings::findings;
 pub use judgement::{Answer, Both, Judgement, judge};
 pub use outcome::{
     Finding, Flown, HandCheck, SetCard, SetKind, SetVerdict, StudyOutcome, TaskOutcome,
 };
+pub use size::size;
+pub use study::{Study, read_study};

@@ -74,6 +74,15 @@ impl Solid {
     pub fn scaled(&self, factor: f64) -> Self {
         Self { pieces: self.pieces.iter().map(|piece| piece.scaled(factor)).collect() }
     }
+    /// The same solid about its middle: every piece a segment or a disc.
+    #[must_use]
+    pub fn centred(&self) -> Self {
+        let pieces = self.pieces.iter().map(|piece| match *piece {
+            Piece::OneSided { end } => Piece::Segment { half: end * 0.5 },
+            other => other,
+        });
+        Self { pieces: pieces.collect() }
+    }
     /// Support function: the largest component along the unit vector `u` of any point of the solid.
     pub fn support(&self, u: Vec3<f64>) -> f64 {
         self.pieces.iter().map(|piece| piece.support(u)).sum()

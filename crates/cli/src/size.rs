@@ -1,0 +1,87 @@
+//! `wrasse size`: what a task asks of the base, and which actuators can give it.
+
+use crate::input::{complain, say, tell, text_of};
+use crate::progress::Bar;
+use crate::run::in_the_way;
+use crate::{YES, bad};
+use clap::Args;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use wrasse_record::{study_json, study_table, write_study};
+use wrasse_study::{StudyOutcome, read_study, size};
+
+/// Size the actuators of a base: what a task asks, which sets can give it, how much slower it must be.
+///
+/// Takes a study (a mission file with a table [study], such as studies/section-4.toml) or any mission,
+/// which is then weighed against the sets of studies/sets.toml. Every task is flown with the reference;
+/// those that the study names are flown in closed loop with every set.
+/// Writes report.html and summary.json to out/NAME. Exit code 0: the study ran and its ledgers close (a
+/// study of which no set suffices is a result, not an error); 2: bad input, or a number broke down.
+#[derive(Debug, Args)]
+pub(crate) struct Size {
+    /// The study, or a mission.
+    study: PathBuf,
+    /// Folder for the results, in place of out/NAME.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print the summary as JSON in place of the tables.
+    #[arg(long)]
+    json: bool,
+    /// Cases flown at a time; as many as the machine has processors if not given. The results are the
+    /// same for any number.
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+}
+
+impl Size {
+    pub(crate) fn go(&self) -> ExitCode {
+        let text = match text_of(&self.study) {
+            Ok(text) => text,
+            Err(sentence) => {
+                tell(&format!("error: {sentence}"));
+                return bad();
+            }
+        };
+        let study = match read_study(&self.study, &text) {
+            Ok(study) => study,
+            Err(complaints) => {
+                complain(&complaints);
+                return bad();
+            }
+        };
+        let folder = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join(study.name()));
+        if let Some(way) = in_the_way(&folder) {
+            tell(&format!(
+                "error: the results cannot be written to {}: {} is not a folder; choose another \
+                 place with --out",
+                folder.display(),
+                way.display()
+            ));
+            return bad();
+        }
+        let threads = self.threads.or_else(|| std::thread::available_parallelism().ok());
+        let bar = Bar::new(study.flights());
+        let outcome = size(&study, threads.map_or(1, NonZeroUsize::get), &mut |p| bar.show(p));
+        bar.done();
+        self.hand_over(&outcome, &folder)
+    }
+
+    /// Write the results, print what was asked for, say how it went.
+    fn hand_over(&self, outcome: &StudyOutcome, folder: &Path) -> ExitCode {
+        let written = match write_study(outcome, folder) {
+            Ok(written) => written,
+            Err(error) => {
+                tell(&format!("error: the results cannot be written: {error}"));
+                return bad();
+            }
+        };
+        if self.json {
+            say(&study_json(outcome).to_string());
+        } else {
+            say(&study_table(outcome));
+            say(&format!("report: {}", written.report.display()));
+        }
+        if outcome.closes { YES } else { bad() }
+    }
+}

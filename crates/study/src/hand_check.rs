@@ -1,0 +1,224 @@
+//! The demand of a task by hand, from the numbers of its file alone: what the simulation finds has to
+//! come near it.
+
+use crate::outcome::HandCheck;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use wrasse_dynamics::{Kinematics, State, kinematics};
+use wrasse_spatial::Vec3;
+use wrasse_vehicle::{JOINTS, Vehicle};
+
+/// What a mission file says of the load, the motion and the push. The rest is not read.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(default)]
+pub(crate) struct TaskFile {
+    payload: BTreeMap<String, LoadFile>,
+    world: PushFile,
+    phase: Vec<PhaseFile>,
+}
+
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(default)]
+struct LoadFile {
+    mass_kg: f64,
+    centre_of_mass_m: [f64; 3],
+    held_by: Option<String>,
+}
+
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(default)]
+struct PushFile {
+    applied_wrench: Vec<WrenchFile>,
+}
+
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(default)]
+struct WrenchFile {
+    on: String,
+    force_n: [f64; 3],
+    torque_nm: [f64; 3],
+}
+
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(default)]
+struct PhaseFile {
+    move_tool: Option<MoveFile>,
+}
+
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(default)]
+struct MoveFile {
+    by_m: Option<[f64; 3]>,
+    axes: Option<String>,
+    duration_s: Option<f64>,
+    limits: Option<LimitsFile>,
+}
+
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(default)]
+struct LimitsFile {
+    shape: String,
+    speed_m_s: f64,
+    acceleration_m_s2: f64,
+    jerk_m_s3: f64,
+}
+
+/// The vehicle at the start of a task, without its load.
+pub(crate) struct Start<'a> {
+    pub(crate) vehicle: &'a Vehicle,
+    pub(crate) state: State<f64, JOINTS>,
+}
+
+/// Peak speed (m/s) and acceleration (m/s²) of a motion, and how they are found.
+struct Pace {
+    speed: f64,
+    acceleration: f64,
+    how: String,
+}
+
+impl Start<'_> {
+    fn tool(
+        &self,
+        k: &Kinematics<'_, f64, JOINTS>,
+        name: Option<&str>,
+    ) -> Option<wrasse_spatial::Pose<f64>> {
+        let name = name.or_else(|| self.vehicle.tools.first().map(String::as_str))?;
+        self.vehicle.frame(name).map(|frame| k.pose(&frame))
+    }
+    /// Mass (kg) and centre of mass (m) of the load: of all payloads that are held.
+    fn load(&self, k: &Kinematics<'_, f64, JOINTS>, file: &TaskFile) -> (f64, Vec3<f64>) {
+        let held = file.payload.values().filter_map(|load| {
+            let tool = self.tool(k, Some(load.held_by.as_deref()?))?;
+            Some((load.mass_kg, tool.point(Vec3::from_array(load.centre_of_mass_m))))
+        });
+        let (mass, moment) =
+            held.fold((0.0, Vec3::zero()), |(m, sum), (mass, p)| (m + mass, sum + p * mass));
+        (mass, if mass > 0.0 { moment * (1.0 / mass) } else { moment })
+    }
+    /// Centre of mass of vehicle and load (m).
+    pub(crate) fn centre_of_mass(&self, file: &TaskFile) -> Vec3<f64> {
+        let k = kinematics(&self.vehicle.robot, &self.state);
+        let ((rest, p_rest), (load, p_load)) = (k.centre_of_mass(), self.load(&k, file));
+        (p_rest * rest + p_load * load) * (1.0 / (rest + load))
+    }
+    /// The demand of the task by hand, if it is one of those that a hand can do: a push at a tool, or
+    /// the first straight line.
+    pub(crate) fn by_hand(&self, file: &TaskFile) -> Option<HandCheck> {
+        if file.world.applied_wrench.is_empty() { self.of_motion(file) } else { self.of_push(file) }
+    }
+    /// Force times lever, and the torque that comes with it; the momentum is what a second of it brings.
+    fn of_push(&self, file: &TaskFile) -> Option<HandCheck> {
+        let k = kinematics(&self.vehicle.robot, &self.state);
+        let centre = self.centre_of_mass(file);
+        let mut torque = Vec3::zero();
+        let mut how = vec![];
+        for wrench in &file.world.applied_wrench {
+            let lever = self.tool(&k, Some(&wrench.on))?.translation - centre;
+            let (force, twist) =
+                (Vec3::from_array(wrench.force_n), Vec3::from_array(wrench.torque_nm));
+            torque += lever.cross(force) + twist;
+            let size = force.norm();
+            if size > 0.0 {
+                let arm = lever.cross(force).norm() / size;
+                how.push(format!("{size:.0} N at a lever of {arm:.3} m from the centre of mass"));
+            }
+            if twist.norm() > 0.0 {
+                how.push(format!("{:.0} N·m", twist.norm()));
+            }
+        }
+        let size = torque.norm();
+        Some(HandCheck {
+            momentum: size,
+            torque: size,
+            how: how.join(", ") + "; momentum: each second",
+        })
+    }
+    /// Reduced mass times lever times speed for the load, half the tool's speed for the arm.
+    fn of_motion(&self, file: &TaskFile) -> Option<HandCheck> {
+        let motion = file.phase.iter().find_map(|phase| phase.move_tool.as_ref())?;
+        let by = Vec3::from_array(motion.by_m?);
+        let pace = motion.pace(by.norm())?;
+        let along = by * (1.0 / by.norm());
+        let k = kinematics(&self.vehicle.robot, &self.state);
+        let ((rest, p_rest), (load, p_load)) = (k.centre_of_mass(), self.load(&k, file));
+        let base = self.vehicle.robot.inertia(wrasse_dynamics::BodyId::Base).mass;
+        let p_arm = (k.joint_origin(0) + self.tool(&k, None)?.translation) * 0.5;
+        // Seen from the base the load moves against all the rest; seen from outside the rest recoils.
+        let reduced = load * rest / (rest + load);
+        let inertial = motion.axes.as_deref() != Some("base");
+        let moved = if inertial { load } else { reduced };
+        let each = (p_load - p_rest).cross(along) * moved
+            + (p_arm - p_rest).cross(along) * (0.5 * (rest - base));
+        let size = each.norm();
+        let lever = (p_load - p_rest).cross(along).norm();
+        let mut how = String::new();
+        if load > 0.0 {
+            let name = if inertial { "load" } else { "reduced mass" };
+            how = format!("{name} {moved:.0} kg at a lever of {lever:.2} m, ");
+        }
+        how += &format!("arm {:.0} kg at half the speed; {}", rest - base, pace.how);
+        Some(HandCheck { momentum: size * pace.speed, torque: size * pace.acceleration, how })
+    }
+}
+
+impl MoveFile {
+    /// Of a quintic: 15/8 L/T and 10/√3 L/T². Of an s-curve that reaches its speed: the limits, or where
+    /// the jerk does not let it reach the acceleration the mean of what it does reach, √(v j).
+    fn pace(&self, length: f64) -> Option<Pace> {
+        if let Some(duration) = self.duration_s {
+            let how = format!("quintic of {duration} s: 1.875 L/T and 5.774 L/T²");
+            let speed = 1.875 * length / duration;
+            let acceleration = 10.0 / 3.0_f64.sqrt() * length / (duration * duration);
+            return Some(Pace { speed, acceleration, how });
+        }
+        let limits = self.limits.as_ref().filter(|limits| limits.shape == "s-curve")?;
+        let (v, a, j) = (limits.speed_m_s, limits.acceleration_m_s2, limits.jerk_m_s3);
+        let acceleration = a.min((v * j).sqrt());
+        let ramp = v / acceleration + acceleration / j;
+        // The way must be long enough for the speed: half of it in each ramp.
+        (length >= v * ramp).then(|| Pace {
+            speed: v,
+            acceleration,
+            how: format!(
+                "s-curve to {v} m/s in {ramp:.2} s: torque {:.2} H/t",
+                acceleration * ramp / v
+            ),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quintic_peaks_at_fifteen_eighths_and_ten_over_root_three() {
+        let pace = MoveFile { duration_s: Some(10.0), ..MoveFile::default() }.pace(2.0).unwrap();
+        assert_eq!(pace.speed, 0.375);
+        // s = 10 t³ - 15 t⁴ + 6 t⁵ has its largest s'' = 60 t - 180 t² + 120 t³ at (3 - √3)/6.
+        let t = (3.0 - 3.0_f64.sqrt()) / 6.0;
+        let largest = t * (60.0 + t * (-180.0 + t * 120.0)) * 0.02;
+        assert!((pace.acceleration - largest).abs() < 1e-15, "{} {largest}", pace.acceleration);
+    }
+
+    /// Ramps of one second: pure jerk doubles the mean acceleration, most of it constant does not.
+    #[test]
+    fn an_s_curve_peaks_at_its_limits_or_where_its_jerk_ends() {
+        let curve = |acceleration_m_s2, jerk_m_s3| MoveFile {
+            limits: Some(LimitsFile {
+                shape: "s-curve".into(),
+                speed_m_s: 0.1,
+                acceleration_m_s2,
+                jerk_m_s3,
+            }),
+            ..MoveFile::default()
+        };
+        let pure = curve(1.0, 0.4).pace(1.0).unwrap();
+        assert!((pure.acceleration - 0.2).abs() < 1e-15, "{}", pure.acceleration);
+        assert!(pure.how.contains("in 1.00 s: torque 2.00 H/t"), "{}", pure.how);
+        let flat = curve(0.125, 0.625).pace(1.0).unwrap();
+        assert!(flat.acceleration == 0.125 && flat.how.contains("in 1.00 s: torque 1.25 H/t"));
+        assert!(curve(1.0, 0.4).pace(0.09).is_none());
+    }
+}

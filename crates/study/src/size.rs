@@ -1,0 +1,263 @@
+//! A study flown and judged.
+
+use crate::capability::{Capability, Reach};
+use crate::demand::Demand;
+use crate::envelope::{Mesh, facets, singular_surfaces};
+use crate::findings::findings;
+use crate::flights::fly;
+use crate::hand_check::Start;
+use crate::judgement::{Both, Judgement, judge};
+use crate::outcome::{Flown, SetCard, SetKind, SetVerdict, StudyOutcome, TaskOutcome};
+use crate::study::{Study, Task};
+use wrasse_dynamics::{JointKind, State};
+use wrasse_mission::{CaseOutcome, End, EventKind, Metric, Progress, ProvenanceRow};
+use wrasse_spatial::{Vec3, vec3};
+use wrasse_vehicle::{Equipment, Grade, Vehicle};
+
+/// Rings of faces on a drawn surface, from pole to pole.
+const RINGS: u16 = 10;
+
+/// Fly a study on so many threads and judge every set on every task.
+pub fn size(study: &Study, threads: usize, progress: &mut dyn FnMut(Progress<'_>)) -> StudyOutcome {
+    let flown = fly(&study.mission, &study.cases(), threads, progress);
+    let closes = flown.iter().all(|case| case.ledger.closes && !broke_down(case));
+    let flights = flown.len();
+    let sets: Vec<SetCard> = (0..study.sets.len()).map(|k| card(study, k)).collect();
+    let mut flown = flown.into_iter();
+    let mut tasks = vec![];
+    for task in &study.tasks {
+        let count = if task.closed_loop { task.cases.len() } else { 1 };
+        let of_task: Vec<_> = flown.by_ref().take(count).collect();
+        tasks.push(task_outcome(study, task, &of_task));
+    }
+    let mission = &study.mission;
+    StudyOutcome {
+        study: mission.name.clone(),
+        summary: mission.summary.clone(),
+        file: mission.file.clone(),
+        text: mission.text.clone(),
+        version: env!("CARGO_PKG_VERSION").into(),
+        seed: mission.seed,
+        claim: mission.study.as_ref().map(|s| s.claim.clone()).unwrap_or_default(),
+        flights,
+        closes,
+        findings: findings(&sets, &tasks),
+        sets,
+        tasks,
+    }
+}
+
+fn broke_down(case: &CaseOutcome) -> bool {
+    matches!(case.end, End::Breakdown { .. })
+}
+
+/// What a set is, from its case in the first task.
+fn card(study: &Study, k: usize) -> SetCard {
+    let case = study.tasks.first().and_then(|task| task.cases.get(k)).copied();
+    let nothing = Equipment::default();
+    let equipment = case.map_or(&nothing, |case| study.mission.equipment(case));
+    let ideal = k == study.reference;
+    let able = if ideal { Capability::ideal() } else { Capability::of(equipment, Vec3::zero()) };
+    let units = [vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0)];
+    let known = |x: Option<f64>| if ideal { None } else { x };
+    SetCard {
+        name: study.sets[k].clone(),
+        kind: if ideal { SetKind::Ideal } else { kind(equipment) },
+        mass_kg: known(equipment.mass),
+        power_w: known(equipment.power),
+        propellant_kg: known(able.propellant),
+        torque_nm: units.map(|d| bounded(able.torque_along(d))),
+        momentum_nms: units.map(|d| bounded(able.momentum_along(d))),
+        momentum_everywhere_nms: (!able.is_unbounded()).then(|| able.momentum.smallest_radius().1),
+        provenance: if ideal { vec![] } else { provenance(equipment) },
+        surfaces: if ideal { vec![] } else { surfaces(&able) },
+    }
+}
+
+fn kind(equipment: &Equipment) -> SetKind {
+    let actuators = &equipment.actuators;
+    let stores = !(actuators.wheels.is_empty() && actuators.gyros.is_empty());
+    match (actuators.thrusters.is_empty(), stores) {
+        (false, true) => SetKind::Hybrid,
+        (false, false) => SetKind::Thrusters,
+        (true, true) if actuators.gyros.is_empty() => SetKind::Wheels,
+        (true, true) => SetKind::Gyros,
+        (true, false) => SetKind::Nothing,
+    }
+}
+
+/// A reach for a table; none if endless.
+fn bounded(reach: Reach) -> Option<Both<f64>> {
+    reach.most.is_finite().then_some(Both { plain: reach.plain, best: reach.most })
+}
+
+fn provenance(equipment: &Equipment) -> Vec<ProvenanceRow> {
+    let row = |p: &wrasse_vehicle::Provenance| ProvenanceRow {
+        of: p.of.clone(),
+        grade: match p.grade {
+            Grade::Published => "published",
+            Grade::Derived => "derived",
+            Grade::Assumed => "assumed",
+        }
+        .into(),
+        source: p.source.clone(),
+    };
+    equipment.provenance.iter().map(row).collect()
+}
+
+/// The momentum of a set as surfaces: singular surfaces of gyros, faces of wheels.
+fn surfaces(able: &Capability) -> Vec<Mesh> {
+    if !able.gyros.is_empty() {
+        return singular_surfaces(&able.gyros, RINGS);
+    }
+    let mut mesh = Mesh::default();
+    for facet in facets(&able.momentum.centred()) {
+        let first = mesh.points.len();
+        mesh.faces.push((first..first + facet.corners.len()).collect());
+        mesh.points.extend(facet.corners);
+    }
+    if mesh.faces.is_empty() { vec![] } else { vec![mesh] }
+}
+
+/// A task from its flights: the reference first, then the other sets if they were flown.
+fn task_outcome(study: &Study, task: &Task, flown: &[CaseOutcome]) -> TaskOutcome {
+    let reference = &flown[0];
+    let vehicle = study.mission.vehicle(task.cases[study.reference]);
+    let own_motion = is_own_motion(reference);
+    let demand = demand(reference);
+    let start = Start { vehicle, state: state(vehicle, reference) };
+    let centre = start.centre_of_mass(&task.file);
+    let mut others = flown[1..].iter();
+    let verdicts = (0..study.sets.len()).map(|k| {
+        let ideal = k == study.reference;
+        let able = if ideal {
+            Capability::ideal()
+        } else {
+            Capability::of(study.mission.equipment(task.cases[k]), centre)
+        };
+        let judged = judge(&demand, &able, own_motion);
+        // The reference is the first of the flights, wherever it stands among the sets.
+        let flight = if ideal { task.closed_loop.then_some(reference) } else { others.next() };
+        verdict(&study.sets[k], &judged, flight.map(flown_with))
+    });
+    let verdicts = if reference.demand.is_empty() { vec![] } else { verdicts.collect() };
+    let rows: Vec<_> = task.labels.iter().map(|(_, row)| row.as_str()).collect();
+    let name = if rows.is_empty() { study.mission.name.clone() } else { rows.join(", ") };
+    TaskOutcome {
+        name,
+        labels: task.labels.clone(),
+        unflown: ended(reference),
+        own_motion,
+        duration_s: demand.duration(),
+        peak_torque_nm: demand.peak_torque().norm(),
+        peak_torque_by_axis_nm: demand.torque_by_axis().to_array(),
+        peak_momentum_nms: demand.peak_momentum().norm(),
+        gathered_nm: demand.sustained().map(Vec3::norm),
+        by_hand: start.by_hand(&task.file),
+        tool_error_mm: 1e3 * largest_tool_error(reference),
+        verdicts,
+        demand: demand.thinned(),
+    }
+}
+
+/// How a flight ended, if not at its end.
+fn ended(case: &CaseOutcome) -> Option<String> {
+    match &case.end {
+        End::Completed => None,
+        End::Infeasible { reason, .. }
+        | End::Stopped { reason, .. }
+        | End::Breakdown { reason, .. } => Some(reason.clone()),
+    }
+}
+
+/// Whether nothing acts from outside: then the task can be done more slowly.
+fn is_own_motion(case: &CaseOutcome) -> bool {
+    let ledger = &case.ledger;
+    let outside = [ledger.angular_from_outside, ledger.linear_from_outside];
+    outside.iter().flatten().all(|x| *x == 0.0)
+}
+
+/// The demand on the base of a flight with the reference. The torque is what changed the momentum that
+/// the reference stores: also what no feedforward knew of.
+fn demand(case: &CaseOutcome) -> Demand {
+    let mut demand = Demand::default();
+    let (mut time, mut held) = (0.0, Vec3::zero());
+    for sample in &case.demand {
+        let now = Vec3::from_array(sample.momentum_B);
+        demand.torque_B.push((held - now) * (1.0 / (sample.time - time)));
+        demand.momentum_B.push(now);
+        demand.time.push(sample.time);
+        (time, held) = (sample.time, now);
+    }
+    demand.force_B = holding_force(case, &demand);
+    demand
+}
+
+/// Force that would hold the base against what pulls at the tool (N): the impulse from outside, spread
+/// over time as the torque is, for both come of one pull at one lever. Base axes are those of the start.
+fn holding_force(case: &CaseOutcome, demand: &Demand) -> Vec<Vec3<f64>> {
+    let impulse = Vec3::from_array(case.ledger.linear_from_outside);
+    let torques = || demand.torque_B.iter().map(|torque| torque.norm());
+    let mut before = 0.0;
+    let steps = demand.time.iter().map(|t| t - core::mem::replace(&mut before, *t));
+    let whole: f64 = torques().zip(steps).map(|(torque, step)| torque * step).sum();
+    let share = if whole > 0.0 { 1.0 / whole } else { 0.0 };
+    torques().map(|torque| impulse * (-torque * share)).collect()
+}
+
+/// The vehicle at the start, from the first sample of its joints.
+fn state<const J: usize>(vehicle: &Vehicle, case: &CaseOutcome) -> State<f64, J> {
+    let mut state = State::default();
+    for (j, name) in vehicle.joint_names.iter().enumerate().take(J) {
+        let path = format!("joint.{name}.position");
+        let channel = case.telemetry.channels.iter().find(|channel| channel.name == path);
+        let first = channel.and_then(|c| c.values.first()).copied().unwrap_or_default();
+        let turns = vehicle.robot.joint(j).kind == JointKind::Revolute;
+        state.q[j] = if turns { first.to_radians() } else { 1e-3 * first };
+    }
+    state
+}
+
+fn largest_tool_error(case: &CaseOutcome) -> f64 {
+    case.demand.iter().map(|sample| sample.tool_error).fold(0.0, f64::max)
+}
+
+/// The value of a metric.
+fn metric(case: &CaseOutcome, name: &str) -> Option<f64> {
+    case.metrics.iter().find(|m: &&Metric| m.name == name).map(|m| m.value)
+}
+
+fn flown_with(case: &CaseOutcome) -> Flown {
+    let limit = case.events.iter().find(|event| event.kind == EventKind::Limit);
+    let turns = case.demand.iter().map(|sample| sample.base_turn);
+    Flown {
+        tool_error_mm: 1e3 * largest_tool_error(case),
+        tool_error_at_end_mm: 1e3 * case.demand.last().map_or(0.0, |sample| sample.tool_error),
+        attitude_error_deg: turns.fold(0.0, f64::max).to_degrees(),
+        propellant_kg: metric(case, "thrusters.propellant_used.final").filter(|kg| *kg > 0.0),
+        requirements_hold: case.verdicts.iter().all(|verdict| verdict.pass),
+        ended: ended(case),
+        limit: limit.map(|event| event.text.clone()),
+        closes: case.ledger.closes,
+    }
+}
+
+fn verdict(set: &str, judged: &Judgement, flown: Option<Flown>) -> SetVerdict {
+    let finite = |x: f64| x.is_finite().then_some(x);
+    let reach = |r: Reach| Both { plain: finite(r.plain), best: finite(r.most) };
+    let load = judged.torque_load;
+    SetVerdict {
+        set: set.to_owned(),
+        suffices: judged.torque.max(judged.momentum),
+        torque: judged.torque,
+        momentum: judged.momentum,
+        torque_load: Both { plain: finite(load.plain), best: finite(load.best) },
+        torque_nm: reach(judged.torque_there),
+        momentum_nms: reach(judged.momentum_there),
+        saturates_s: judged.saturates,
+        slower: judged.slower,
+        fuel_kg: judged.fuel,
+        fuel_in_place_kg: judged.fuel_in_place,
+        flown,
+    }
+}
