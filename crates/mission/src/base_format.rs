@@ -98,7 +98,7 @@ pub(crate) struct ModulationFile {
 
 impl Default for ModulationFile {
     fn default() -> Self {
-        Self { gain: 4.0, lag_s: 0.2, opens_at: 0.25, shuts_at: 0.05 }
+        Self { gain: 4.0, lag_s: 0.4, opens_at: 0.25, shuts_at: 0.05 }
     }
 }
 

@@ -9,7 +9,7 @@ use crate::picture::snapshot;
 use crate::plan::{Plan, cannot_begin};
 use crate::quantity::Watch;
 use crate::read_base::Turning;
-use crate::saturations::{EquipmentLimits, at_limits, describe};
+use crate::saturations::{EquipmentLimits, MISSED, at_limits, describe};
 use crate::sensing::Sensing;
 use crate::telemetry::Recorder;
 use wrasse_dynamics::{Payload, kinematics};
@@ -32,9 +32,6 @@ pub(crate) struct Flown {
     /// The last thing seen.
     pub(crate) last: Option<Observation>,
 }
-
-/// Share of the wanted torque or force (and N·m, N) above which what is missing is told.
-const MISSED: f64 = 0.01;
 
 /// Share of the vehicle's mass whose loss as propellant the flight computer is told of.
 const NOTICED: f64 = 1e-4;
@@ -69,6 +66,8 @@ struct Flight<'a> {
     weighed: f64,
     /// Whether the attitude was lost.
     lost: bool,
+    /// Whether thrusters empty wheels and gyros.
+    unloads: bool,
     /// Angle of the estimated attitude from the true one (rad); NaN where nothing is estimated.
     estimate_error: f64,
     /// Number of each payload among the world's free bodies, while it floats.
@@ -190,13 +189,11 @@ impl<'a> Flight<'a> {
         if !case.wrenches.is_empty() {
             world.set_outside_wrench(together(case.wrenches.clone()));
         }
-        let floating = case.payloads.iter().enumerate().map(|(i, p)| match p.start {
-            PayloadStart::Held(_) => None,
-            PayloadStart::Free(..) => Some(world.add_free_body(case.free_body(i))),
-        });
-        let floating = floating.collect();
         let is_held = |i: &usize| matches!(case.payloads[*i].start, PayloadStart::Held(_));
-        let holding = (0..case.payloads.len()).filter(is_held).collect();
+        let payloads = 0..case.payloads.len();
+        let floats = |i| (!is_held(&i)).then(|| world.add_free_body(case.free_body(i)));
+        let floating = payloads.clone().map(floats).collect();
+        let holding = payloads.filter(is_held).collect();
         let start = |j: usize| SetPoint {
             position: case.start.q[j],
             rate: case.start.v[j],
@@ -212,6 +209,7 @@ impl<'a> Flight<'a> {
             told: vec![false; case.failures.len()],
             weighed: case.equipment.actuators.tank.map_or(0.0, |tank| tank.propellant),
             lost: false,
+            unloads: false,
             estimate_error: f64::NAN,
             floating,
             holding,
@@ -368,6 +366,13 @@ impl<'a> Flight<'a> {
                 );
                 self.tell_once(kind, text);
             }
+        }
+        if command.steering.unloading != self.unloads {
+            self.unloads = command.steering.unloading;
+            let stored = command.steering.stored_B.norm();
+            let done = if self.unloads { "begin to empty" } else { "have emptied" };
+            let text = format!("thrusters {done} wheels and gyros: {stored:.2} N·m·s are stored");
+            self.say(EventKind::Limit, text);
         }
         if self.sensing.blinded {
             let text = "the base turns too fast for its star tracker".into();

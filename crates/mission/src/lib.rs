@@ -23,6 +23,7 @@ mod read_setup;
 mod reading;
 mod requirement;
 mod run;
+mod sampling;
 mod saturations;
 mod sensing;
 mod telemetry;

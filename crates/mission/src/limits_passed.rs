@@ -3,6 +3,7 @@
 
 use crate::mission::Case;
 use crate::observe::Observation;
+use crate::quantity::place;
 use wrasse_world::BaseAttitude;
 
 /// A limit that was passed: said once in each phase.
@@ -16,10 +17,15 @@ pub(crate) enum Passed {
     TorqueMissing,
     ForceMissing,
     Blinded,
+    Singular,
 }
 
 /// A little more than round-off: what is kept to the last digit was not passed.
 const SLACK: f64 = 1.0 + 1e-9;
+
+/// det(A Aᵀ) (–) below which gyros count as singular: the pyramid at zero angles has 1.33, a setting a few
+/// degrees from a singular one less than this.
+const SINGULAR: f64 = 0.01;
 
 /// All limits that are passed now, each with a sentence.
 pub(crate) fn limits_passed(case: &Case, seen: &Observation) -> Vec<(Passed, String)> {
@@ -48,6 +54,14 @@ pub(crate) fn limits_passed(case: &Case, seen: &Observation) -> Vec<(Passed, Str
             let text = format!("joint {name} needs more than its drive has: {found} of {limit}");
             passed.push((Passed::Effort(j), text));
         }
+    }
+    let distance = seen.values[place("gyros.singularity_distance")];
+    if distance < SINGULAR {
+        let text = format!(
+            "the gyros are all but singular, det(A Aᵀ) is {distance:.4}: torque about one axis takes high \
+             gimbal rates or cannot be given"
+        );
+        passed.push((Passed::Singular, text));
     }
     let Some(actuator) = case.vehicle.attitude_actuator.filter(|_| case.base == BaseAttitude::Held)
     else {

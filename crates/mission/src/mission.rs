@@ -6,6 +6,7 @@ use crate::quantity::Quantity;
 use crate::read_base::Turning;
 use crate::requirement::Requirement;
 use std::sync::Arc;
+use wrasse_document::Complaint;
 use wrasse_dynamics::{BodyId, Frame, JointKind, Payload, Robot, State};
 use wrasse_flight::steering::Unit;
 use wrasse_flight::{Phase, Setup};
@@ -29,6 +30,8 @@ pub struct Mission {
     pub seed: u64,
     /// What `wrasse size` makes of the cases.
     pub study: Option<Study>,
+    /// Warnings about the file: it can be flown, but is worth a second look.
+    pub remarks: Vec<Complaint>,
     pub(crate) cases: Vec<Case>,
 }
 

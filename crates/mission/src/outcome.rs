@@ -45,7 +45,7 @@ pub struct VehicleCard {
     pub joints: usize,
     /// Where its numbers come from.
     pub provenance: Vec<ProvenanceRow>,
-    /// Warnings and notes of its reading, one line each.
+    /// Warnings and notes of its reading, then those of the mission's, one line each.
     pub remarks: Vec<String>,
 }
 

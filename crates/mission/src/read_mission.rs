@@ -12,6 +12,7 @@ use crate::read_phase::phase;
 use crate::read_setup::{base_attitude, setup, start, stepper, torque_joints};
 use crate::reading::Reading;
 use crate::requirement::Requirement;
+use crate::sampling::{Sampling, check_sampling};
 use std::path::PathBuf;
 use std::sync::Arc;
 use wrasse_document::{Complaint, Document, Severity, Step, at, schema_of};
@@ -53,19 +54,21 @@ pub fn read_mission(
             (file.compare[axis].axis.clone(), file.compare[axis].row[row].name.clone())
         });
         match read_case(&varied, labels.collect()) {
-            Ok(case) => cases.push(case),
+            Ok((case, doubts)) => {
+                cases.push(case);
+                complaints.extend(doubts);
+            }
             Err(found) => complaints.extend(found),
         }
     }
-    let complaints = document.beside(part.complaints, complaints);
-    if complaints.iter().any(|c| c.severity == Severity::Error) {
-        // What is wrong with the common part is wrong in every case: say it once.
-        let mut once: Vec<Complaint> = vec![];
-        for complaint in complaints {
-            if !once.contains(&complaint) {
-                once.push(complaint);
-            }
+    // What is wrong with the common part is wrong in every case: say it once.
+    let mut once: Vec<Complaint> = vec![];
+    for complaint in document.beside(part.complaints, complaints) {
+        if !once.contains(&complaint) {
+            once.push(complaint);
         }
+    }
+    if once.iter().any(|c| c.severity == Severity::Error) {
         return Err(once);
     }
     let source = document.source();
@@ -76,6 +79,7 @@ pub fn read_mission(
         text: source.text.clone(),
         seed: file.seed,
         study: file.study.as_ref().map(Study::of),
+        remarks: once,
         cases,
     })
 }
@@ -141,7 +145,11 @@ fn check_axis(file: &MissionFile, i: usize, document: &Document, complaints: &mu
     }
 }
 
-fn read_case(document: &Document, labels: Vec<(String, String)>) -> Result<Case, Vec<Complaint>> {
+/// A case, and what is worth a second look in it.
+fn read_case(
+    document: &Document,
+    labels: Vec<(String, String)>,
+) -> Result<(Case, Vec<Complaint>), Vec<Complaint>> {
     let file: MissionFile = document.read()?;
     let vehicle = vehicle_of(&file, document)?;
     let mut reading = Reading { document, complaints: vec![], vehicle: &vehicle };
@@ -169,11 +177,14 @@ fn read_case(document: &Document, labels: Vec<(String, String)>) -> Result<Case,
     let count = f64::from(file.output.snapshots);
     r.within(at!["output", "snapshots"], count, SNAPSHOTS, why);
     let stepper = stepper(r, &file);
+    let (modulation, period) = (base_control.steering.map(|s| s.modulation), setup.tuning.period);
+    let sampling = Sampling { equipment: &equipment, base, turning, stepper, period, modulation };
+    check_sampling(r, &file, &sampling);
     let complaints = reading.complaints;
     if complaints.iter().any(|c| c.severity == Severity::Error) {
         return Err(complaints);
     }
-    Ok(Case {
+    let case = Case {
         labels,
         vehicle_name: file.vehicle.clone(),
         vehicle: Arc::new(vehicle),
@@ -195,7 +206,8 @@ fn read_case(document: &Document, labels: Vec<(String, String)>) -> Result<Case,
         quantities,
         output_rate,
         snapshots: file.output.snapshots,
-    })
+    };
+    Ok((case, complaints))
 }
 
 /// The quantities that are watched, and what is required of them.

@@ -17,6 +17,10 @@ impl Reading<'_> {
         let complaint = self.document.error(path, message, "here");
         self.complaints.push(if help.is_empty() { complaint } else { complaint.with_help(help) });
     }
+    /// Note a doubt at a path.
+    pub(crate) fn warning(&mut self, path: &[Step<'_>], message: String, help: &str) {
+        self.complaints.push(self.document.warning(path, message, "here").with_help(help));
+    }
     /// The place of a name in a list; an error with a suggestion if it is not there.
     pub(crate) fn find(
         &mut self,

@@ -52,13 +52,14 @@ pub fn run(
         mission_text: mission.text.clone(),
         version: env!("CARGO_PKG_VERSION").into(),
         seed: mission.seed,
-        vehicle: vehicle_card(&mission.cases[0]),
+        vehicle: vehicle_card(mission),
         environment: "Free space: nothing acts on the vehicle but its own actuators.".into(),
         cases: outcomes,
     }
 }
 
-fn vehicle_card(case: &Case) -> VehicleCard {
+fn vehicle_card(mission: &Mission) -> VehicleCard {
+    let case = &mission.cases[0];
     let vehicle = &case.vehicle;
     let provenance = vehicle.provenance.iter().chain(&case.equipment.provenance);
     let rows = provenance.map(|p| ProvenanceRow {
@@ -78,7 +79,12 @@ fn vehicle_card(case: &Case) -> VehicleCard {
         mass_kg: vehicle.robot.mass(),
         joints: vehicle.robot.joint_count(),
         provenance: rows.collect(),
-        remarks: vehicle.remarks.iter().map(|c| c.message.clone()).collect(),
+        remarks: vehicle
+            .remarks
+            .iter()
+            .chain(&mission.remarks)
+            .map(|c| c.message.clone())
+            .collect(),
     }
 }
 

@@ -7,10 +7,17 @@ use wrasse_hardware::{ActuatorReadings, Actuators};
 use wrasse_vehicle::{Equipment, JOINTS};
 use wrasse_world::Saturation;
 
+/// Torque (N·m) or force (N), and share of what is wanted, above which what is missing is told.
+pub(crate) const MISSED: f64 = 0.01;
+
+/// What is said of missing torque.
+const UNGIVEN: &str = "the actuators could not give all of the torque that was wanted";
+
 /// How long a limit was met, and what that did.
 #[derive(Debug, Clone, Copy)]
 struct Met {
-    limit: Saturation,
+    /// `None`: torque was missing, whatever was at its limit.
+    limit: Option<Saturation>,
     first: f64,
     periods: u32,
     /// Largest torque that was missing meanwhile (N·m), largest turn of the base (rad).
@@ -28,7 +35,8 @@ impl EquipmentLimits {
     /// Note a period that begins at `time` (s) in which these limits were met, while `missing` (N·m) of
     /// the wanted torque was missing and the base stood `turned` (rad) from where it began.
     pub(crate) fn note(&mut self, cut: &[Saturation], time: f64, missing: f64, turned: f64) {
-        for &limit in cut.iter().filter(|limit| is_of_equipment(**limit)) {
+        let limits = cut.iter().copied().filter(|limit| is_of_equipment(*limit)).map(Some);
+        for limit in limits.chain((missing > MISSED).then_some(None)) {
             let at = self.met.iter().position(|met| met.limit == limit).unwrap_or_else(|| {
                 let met = Met { limit, first: time, periods: 0, missing: 0.0, turned: 0.0 };
                 self.met.push(met);
@@ -49,7 +57,7 @@ impl EquipmentLimits {
                  torque was missing, and the base stood up to {:.3} deg off",
                 f64::from(met.periods) * case.period(),
                 met.first,
-                describe(case, met.limit),
+                met.limit.map_or(UNGIVEN.into(), |limit| describe(case, limit)),
                 met.missing,
                 met.turned.to_degrees()
             )
