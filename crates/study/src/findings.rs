@@ -2,7 +2,7 @@
 //! sentence counts verdicts; none is written beforehand.
 
 use crate::judgement::Answer;
-use crate::outcome::{Finding, SetCard, SetKind, SetVerdict, TaskOutcome};
+use crate::outcome::{Finding, Flown, SetCard, SetKind, SetVerdict, TaskOutcome};
 
 /// The findings, in a fixed order; what does not occur is left out.
 pub(crate) fn findings(sets: &[SetCard], tasks: &[TaskOutcome]) -> Vec<Finding> {
@@ -15,6 +15,7 @@ pub(crate) fn findings(sets: &[SetCard], tasks: &[TaskOutcome]) -> Vec<Finding> 
         all.steering_decides(),
         all.duration_decides(),
         all.thrusters(),
+        all.push_moves(),
         all.tool_error_decides(),
     ];
     parts.into_iter().flatten().collect()
@@ -167,33 +168,85 @@ impl<'a> Verdicts<'a> {
         );
         self.has(SetKind::Thrusters).then(|| finding("thrusters", text, &tasks))
     }
-    /// Closed loop: the set that suffices by its envelope and misses with the tool, and the other way.
+    /// A force pushes the vehicle away, whatever holds its attitude.
+    fn push_moves(&self) -> Option<Finding> {
+        let tasks =
+            self.that(|t| !t.own_motion && t.gathered_nm.is_some() && t.tool_error_mm > 1.0);
+        let worst = tasks
+            .iter()
+            .copied()
+            .reduce(|a, b| if b.tool_error_mm > a.tool_error_mm { b } else { a })?;
+        let text = format!(
+            "In {} of {} tasks a force pushes the vehicle away with its attitude held: by {:.0} mm in {:.0} s \
+             at most. Wheels and gyros cannot react a force, thrusters and a grapple can.",
+            tasks.len(),
+            self.asked(),
+            worst.tool_error_mm,
+            worst.duration_s
+        );
+        Some(finding("no torque reacts a force", text, &tasks))
+    }
+    /// Closed loop: what the tool says of the sets whose envelope suffices, and of the others.
     fn tool_error_decides(&self) -> Option<Finding> {
         let flown = self.that(|t| t.verdicts.iter().any(|v| v.flown.is_some()));
-        let mut text = String::new();
-        for (kind, name) in [
-            (SetKind::Wheels, "wheels"),
-            (SetKind::Gyros, "gyros"),
-            (SetKind::Thrusters, "thrusters"),
-        ] {
-            let errors =
-                flown.iter().flat_map(|t| self.of(t, kind)).filter_map(|v| v.flown.as_ref());
-            let errors: Vec<f64> = errors.map(|flown| flown.tool_error_mm).collect();
-            let low = errors.iter().copied().fold(f64::INFINITY, f64::min);
-            let high = errors.iter().copied().fold(0.0, f64::max);
-            if !errors.is_empty() {
-                text += &format!(" {name}: {low:.2} to {high:.0} mm;");
-            }
-        }
-        if text.is_empty() {
-            return None;
-        }
-        let reference = flown.iter().map(|t| t.tool_error_mm).fold(0.0, f64::max);
+        let told =
+            [SetKind::Wheels, SetKind::Gyros, SetKind::Thrusters, SetKind::Hybrid].map(|kind| {
+                let all: Vec<_> = flown
+                    .iter()
+                    .flat_map(|t| self.of(t, kind))
+                    .filter_map(|v| Some((v.suffices != Answer::No, v.flown.as_ref()?)))
+                    .collect();
+                let parts = [(true, "suffice"), (false, "do not")].map(|(enough, word)| {
+                    errors(
+                        all.iter().filter(|(is, _)| *is == enough).map(|(_, flown)| *flown),
+                        word,
+                    )
+                });
+                let parts: Vec<String> = parts.into_iter().flatten().collect();
+                (!parts.is_empty()).then(|| format!(" {}: {}.", name(kind), parts.join("; ")))
+            });
+        let told: String = told.into_iter().flatten().collect();
         let text = format!(
-            "Flown in closed loop, the tool errs by:{text} the reference by up to {reference:.2} mm."
+            "Largest error of the tool in closed loop, with sets that by their envelopes\u{2026}{told}"
         );
-        Some(finding("tool error decides", text, &flown))
+        (!told.is_empty()).then(|| finding("tool error decides", text, &flown))
     }
+}
+
+fn name(kind: SetKind) -> &'static str {
+    match kind {
+        SetKind::Ideal => "The reference",
+        SetKind::Wheels => "Wheels",
+        SetKind::Gyros => "Gyros",
+        SetKind::Thrusters => "Thrusters",
+        SetKind::Hybrid => "Gyros or wheels with thrusters",
+        SetKind::Nothing => "Nothing",
+    }
+}
+
+/// Smallest and largest tool error of flights, and in how many the requirements hold.
+fn errors<'a>(flights: impl Iterator<Item = &'a Flown>, word: &str) -> Option<String> {
+    let flights: Vec<&Flown> = flights.collect();
+    let errors = || flights.iter().map(|flown| flown.tool_error_mm);
+    let (low, high) = (errors().fold(f64::INFINITY, f64::min), errors().fold(0.0, f64::max));
+    let hold = flights.iter().filter(|flown| flown.requirements_hold).count();
+    (!flights.is_empty()).then(|| {
+        format!(
+            "{word}, {} to {} mm (requirements hold in {hold} of {} flights)",
+            rounded(low),
+            rounded(high),
+            flights.len()
+        )
+    })
+}
+
+/// Two significant digits.
+fn rounded(value: f64) -> String {
+    if value >= 10.0 {
+        return format!("{value:.0}");
+    }
+    let short = format!("{value:.1e}");
+    short.parse::<f64>().map_or(short, |value| value.to_string())
 }
 
 fn finding(about: &str, text: String, tasks: &[&TaskOutcome]) -> Finding {
@@ -204,7 +257,6 @@ fn finding(about: &str, text: String, tasks: &[&TaskOutcome]) -> Finding {
 mod tests {
     use super::*;
     use crate::judgement::Both;
-    use crate::outcome::Flown;
 
     fn set(name: &str, kind: SetKind) -> SetCard {
         SetCard {
@@ -304,10 +356,8 @@ mod tests {
         let tasks = [task("fast", vec![verdict("wheels", Answer::No, Answer::Yes), one])];
         let all = findings(&sets, &tasks);
         let error = text(&all, "tool error decides").unwrap();
-        assert!(
-            error.text.contains("gyros: 0.40 to 0 mm") && !error.text.contains("wheels"),
-            "{error:?}"
-        );
+        let told = "Gyros: suffice, 0.4 to 0.4 mm (requirements hold in 1 of 1 flights).";
+        assert!(error.text.contains(told) && !error.text.contains("Wheels"), "{error:?}");
     }
 
     #[test]

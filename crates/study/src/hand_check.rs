@@ -36,6 +36,9 @@ struct PushFile {
 #[serde(default)]
 struct WrenchFile {
     on: String,
+    from_s: f64,
+    duration_s: f64,
+    ramp_s: f64,
     force_n: [f64; 3],
     torque_nm: [f64; 3],
 }
@@ -103,21 +106,27 @@ impl Start<'_> {
         (p_rest * rest + p_load * load) * (1.0 / (rest + load))
     }
     /// The demand of the task by hand, if it is one of those that a hand can do: a push at a tool, or
-    /// the first straight line.
-    pub(crate) fn by_hand(&self, file: &TaskFile) -> Option<HandCheck> {
-        if file.world.applied_wrench.is_empty() { self.of_motion(file) } else { self.of_push(file) }
+    /// the first straight line. `duration`: how long it is flown (s).
+    pub(crate) fn by_hand(&self, file: &TaskFile, duration: f64) -> Option<HandCheck> {
+        if file.world.applied_wrench.is_empty() {
+            self.of_motion(file)
+        } else {
+            self.of_push(file, duration)
+        }
     }
-    /// Force times lever, and the torque that comes with it; the momentum is what a second of it brings.
-    fn of_push(&self, file: &TaskFile) -> Option<HandCheck> {
+    /// Force times lever, and the torque that comes with it; momentum is torque times time.
+    fn of_push(&self, file: &TaskFile, duration: f64) -> Option<HandCheck> {
         let k = kinematics(&self.vehicle.robot, &self.state);
         let centre = self.centre_of_mass(file);
-        let mut torque = Vec3::zero();
+        let (mut torque, mut momentum) = (Vec3::zero(), Vec3::zero());
         let mut how = vec![];
         for wrench in &file.world.applied_wrench {
             let lever = self.tool(&k, Some(&wrench.on))?.translation - centre;
             let (force, twist) =
                 (Vec3::from_array(wrench.force_n), Vec3::from_array(wrench.torque_nm));
-            torque += lever.cross(force) + twist;
+            let (each, acting) = (lever.cross(force) + twist, wrench.acting(duration));
+            torque += each;
+            momentum += each * acting;
             let size = force.norm();
             if size > 0.0 {
                 let arm = lever.cross(force).norm() / size;
@@ -127,12 +136,7 @@ impl Start<'_> {
                 how.push(format!("{:.0} N·m", twist.norm()));
             }
         }
-        let size = torque.norm();
-        Some(HandCheck {
-            momentum: size,
-            torque: size,
-            how: how.join(", ") + "; momentum: each second",
-        })
+        Some(HandCheck { momentum: momentum.norm(), torque: torque.norm(), how: how.join(", ") })
     }
     /// Reduced mass times lever times speed for the load, half the tool's speed for the arm.
     fn of_motion(&self, file: &TaskFile) -> Option<HandCheck> {
@@ -159,6 +163,16 @@ impl Start<'_> {
         }
         how += &format!("arm {:.0} kg at half the speed; {}", rest - base, pace.how);
         Some(HandCheck { momentum: size * pace.speed, torque: size * pace.acceleration, how })
+    }
+}
+
+impl WrenchFile {
+    /// Time (s) for which it acts in a flight of this duration, a rise or a fall counted half.
+    fn acting(&self, duration: f64) -> f64 {
+        let whole = (duration - self.from_s).min(self.duration_s).max(0.0);
+        let fallen = self.from_s + self.duration_s <= duration;
+        let slopes = if fallen { self.ramp_s } else { 0.5 * self.ramp_s };
+        (whole - slopes).max(0.0)
     }
 }
 
@@ -200,6 +214,13 @@ mod tests {
         let t = (3.0 - 3.0_f64.sqrt()) / 6.0;
         let largest = t * (60.0 + t * (-180.0 + t * 120.0)) * 0.02;
         assert!((pace.acceleration - largest).abs() < 1e-15, "{} {largest}", pace.acceleration);
+    }
+
+    #[test]
+    fn a_push_counts_its_slopes_half() {
+        let push =
+            WrenchFile { from_s: 1.0, duration_s: 4.0, ramp_s: 0.5, ..WrenchFile::default() };
+        assert_eq!([0.5, 3.0, 9.0].map(|duration| push.acting(duration)), [0.0, 1.75, 3.5]);
     }
 
     /// Ramps of one second: pure jerk doubles the mean acceleration, most of it constant does not.

@@ -117,7 +117,7 @@ pub struct TaskOutcome {
 /// A demand by hand.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct HandCheck {
-    /// Momentum (N·m·s), or momentum every second for a force.
+    /// Momentum (N·m·s).
     pub momentum: f64,
     /// Peak torque (N·m).
     pub torque: f64,

@@ -153,7 +153,7 @@ fn task_outcome(study: &Study, task: &Task, flown: &[CaseOutcome]) -> TaskOutcom
         peak_torque_by_axis_nm: demand.torque_by_axis().to_array(),
         peak_momentum_nms: demand.peak_momentum().norm(),
         gathered_nm: demand.sustained().map(Vec3::norm),
-        by_hand: start.by_hand(&task.file),
+        by_hand: start.by_hand(&task.file, demand.duration()),
         tool_error_mm: 1e3 * largest_tool_error(reference),
         verdicts,
         demand: demand.thinned(),
@@ -188,6 +188,12 @@ fn demand(case: &CaseOutcome) -> Demand {
         demand.momentum_B.push(now);
         demand.time.push(sample.time);
         (time, held) = (sample.time, now);
+    }
+    // Before the first period nothing is held yet.
+    if let Some(first) = demand.torque_B.first().copied() {
+        demand.time.insert(0, 0.0);
+        demand.torque_B.insert(0, first);
+        demand.momentum_B.insert(0, Vec3::zero());
     }
     demand.force_B = holding_force(case, &demand);
     demand
