@@ -65,7 +65,9 @@ impl<T: Scalar, const J: usize> Navigation<T, J> {
         match *reading {
             BaseReading::Known(X_NB, V_NB_B) => (X_NB, V_NB_B),
             BaseReading::Felt { rate_B, tracker, p_NB_N, v_NB_N } => {
-                let felt = self.attitude.as_mut().map(|e| e.step(rate_B, tracker, period));
+                // The first reading comes before the first period has passed.
+                let passed = if self.last.is_some() { period } else { T::zero() };
+                let felt = self.attitude.as_mut().map(|e| e.step(rate_B, tracker, passed));
                 self.last = felt;
                 let (quat_NB, w_NB_B) =
                     felt.map_or((Quat::identity(), rate_B), |e| (e.quat_NB, e.w_NB_B));

@@ -105,9 +105,12 @@ pub struct Steering<T> {
     before: Option<(Vec3<T>, Vec3<T>)>,
     /// What they were asked for and have not yet given (N·m·s).
     owed_B: Vec3<T>,
+    /// Speeds and angles as they were last heard: a unit that says no number may be heard again.
+    heard: ActuatorReadings<T>,
 }
 
-/// How fast wheels and gyros are asked for what they owe (1/s): slower than their servos answer.
+/// How fast wheels and gyros are asked for what they owe (1/s): slower than their servos answer. In
+/// periods that are longer than this takes: all of it in one, for more would come back larger.
 const CATCH_UP: f64 = 10.0;
 
 impl<T: Scalar> Steering<T> {
@@ -122,7 +125,16 @@ impl<T: Scalar> Steering<T> {
             time: T::zero(),
             before: None,
             owed_B: Vec3::zero(),
+            heard: ActuatorReadings::default(),
         }
+    }
+
+    /// Nothing is steered until the next call: what happens meanwhile is owed by nobody, and no pulse
+    /// goes on.
+    pub fn rest(&mut self) {
+        self.before = None;
+        self.owed_B = Vec3::zero();
+        self.modulators = [Modulator::default(); THRUSTERS];
     }
 
     /// Do without a unit from now on.
@@ -142,19 +154,22 @@ impl<T: Scalar> Steering<T> {
     /// Gyros come first, then wheels. Thrusters give the force, what of the torque those cannot give,
     /// and what empties them. They are pulsed: what they will really give over the period is taken off
     /// before gyros and wheels are told, so these smooth the pulses.
+    ///
+    /// A unit whose reading is no number is told nothing; its momentum counts as it was last heard.
     pub fn steer(&mut self, needs: &Needs<T>, readings: &ActuatorReadings<T>) -> Steered<T> {
         let actuators = self.setup.actuators;
         let mut steered = Steered::nothing();
-        let stored_B = actuators.gyro_momentum(&readings.gimbal_angle)
-            + actuators.wheel_momentum(&readings.wheel_speed);
+        let stored_B = self.stored(readings);
         self.settle(stored_B);
         let mut missing = needs.wanted;
         let mut rest_B = needs.wanted.torque;
         if !actuators.thrusters.is_empty() {
             let mut ask = needs.wanted;
             if self.stores_momentum() {
-                let (_, _, missing_B) = self.inside(rest_B, needs, stored_B, readings);
-                ask.torque = missing_B + self.unloading_torque(stored_B);
+                // No more than what turns inside can hold against: the bodies should not feel it.
+                let emptying_B = self.unloading_torque(stored_B);
+                let (_, _, missing_B) = self.inside(rest_B - emptying_B, needs, stored_B, readings);
+                ask.torque = emptying_B + missing_B;
             }
             let (p_BScm_B, thrusters) = (needs.p_BScm_B, &actuators.thrusters);
             let holds = self.setup.holds_position;
@@ -195,11 +210,23 @@ impl<T: Scalar> Steering<T> {
         !(actuators.wheels.is_empty() && actuators.gyros.is_empty())
     }
 
+    /// Momentum in wheels and gyros by what was last heard of each, base axes (N·m·s).
+    fn stored(&mut self, readings: &ActuatorReadings<T>) -> Vec3<T> {
+        let heard = &mut self.heard;
+        keep_numbers(&mut heard.wheel_speed, &readings.wheel_speed);
+        keep_numbers(&mut heard.gimbal_angle, &readings.gimbal_angle);
+        let actuators = &self.setup.actuators;
+        actuators.gyro_momentum(&heard.gimbal_angle) + actuators.wheel_momentum(&heard.wheel_speed)
+    }
+
     /// Book what wheels and gyros gave of what they were last asked for: friction, servos and motors
     /// that are slower than the period, a gimbal that is stuck all leave something owing.
     fn settle(&mut self, stored_B: Vec3<T>) {
-        if let Some((before_B, due_B)) = self.before {
-            self.owed_B += due_B - (stored_B - before_B);
+        let Some((before_B, due_B)) = self.before.take() else { return };
+        let owed_B = self.owed_B + (due_B - (stored_B - before_B));
+        // What was asked for may have been no number: such a period is not booked.
+        if owed_B.to_array().iter().all(|x| x.is_finite()) {
+            self.owed_B = owed_B;
         }
     }
 
@@ -214,7 +241,8 @@ impl<T: Scalar> Steering<T> {
     ) -> ([T; WHEELS], [T; GYROS], Vec3<T>) {
         let setup = &self.setup;
         let Actuators { wheels, gyros, .. } = &setup.actuators;
-        let mut left_B = due(torque_B, needs, stored_B) + self.owed_B * T::from_f64(CATCH_UP);
+        let catch_up = T::from_f64(CATCH_UP).min(T::one() / needs.period);
+        let mut left_B = due(torque_B, needs, stored_B) + self.owed_B * catch_up;
         let mut rates = [T::zero(); GYROS];
         let mut torques = [T::zero(); WHEELS];
         if !gyros.is_empty() {
@@ -250,6 +278,11 @@ impl<T: Scalar> Steering<T> {
         let thrusters = self.setup.actuators.thrusters;
         for (i, thruster) in thrusters.iter().enumerate() {
             let modulator = &mut self.modulators[i];
+            if !self.usable_thrusters[i] {
+                // What it still had to give is given up: a pulse does not outlast its thruster.
+                *modulator = Modulator::default();
+                continue;
+            }
             let shortest = thruster.minimum_on_time;
             let law = &self.setup.modulation;
             let input = law.input_for(selection.duty[i]);
@@ -259,6 +292,13 @@ impl<T: Scalar> Steering<T> {
             given += SpatialForce::new((thruster.position_B - needs.p_BScm_B).cross(force), force);
         }
         given
+    }
+}
+
+/// Take over what is a number.
+fn keep_numbers<T: Scalar>(last: &mut [T], now: &[T]) {
+    for (last, &now) in last.iter_mut().zip(now).filter(|(_, now)| now.is_finite()) {
+        *last = now;
     }
 }
 

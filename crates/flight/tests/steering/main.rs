@@ -9,9 +9,13 @@ mod arms;
 #[allow(dead_code, reason = "the dynamics asks more of the same trees")]
 mod random_robot;
 
+mod bench;
 mod gyros;
+mod owed;
 mod posture_relief;
 mod pulse_modulation;
+mod steer;
+mod steer_limits;
 mod thrusters;
 mod unloading;
 mod wheels;

@@ -1,0 +1,197 @@
+//! A bench for steering: a base that is turned as told, with actuators that do what they are told, or
+//! nearly. Not the simulated world: a few lines that can be read at once.
+
+use wrasse_flight::steering::{
+    GyroLaw, Modulation, Needs, Steered, Steering, SteeringSetup, Unloading, WheelLaw,
+};
+use wrasse_hardware::{
+    ActuatorCommand, ActuatorReadings, Actuators, ControlMomentGyro, GYROS, List, ReactionWheel,
+    Thruster, WHEELS,
+};
+use wrasse_spatial::{SpatialForce, Vec3, vec3};
+
+/// Control period (s).
+pub(crate) const PERIOD: f64 = 0.02;
+
+/// Four wheels of 60 N·m·s, tilted alike out of the y-z plane.
+pub(crate) fn wheels(torque_limit: f64) -> Vec<ReactionWheel<f64>> {
+    let third = 3.0_f64.sqrt().recip();
+    let tilted = |y: f64, z: f64| ReactionWheel {
+        axis_B: vec3(third, third * y, third * z),
+        inertia: 0.1,
+        torque_limit,
+        speed_limit: 600.0,
+        ..ReactionWheel::default()
+    };
+    vec![tilted(1.0, 1.0), tilted(-1.0, 1.0), tilted(-1.0, -1.0), tilted(1.0, -1.0)]
+}
+
+/// A pyramid of four gyros of 15 N·m·s, 0.8 rad/s.
+pub(crate) fn gyros() -> Vec<ControlMomentGyro<f64>> {
+    let gyro = |gimbal: [f64; 3], spin: [f64; 3]| ControlMomentGyro {
+        gimbal_axis_B: Vec3::from_array(gimbal),
+        spin_axis_B: Vec3::from_array(spin),
+        momentum: 15.0,
+        rate_limit: 0.8,
+        ..ControlMomentGyro::default()
+    };
+    vec![
+        gyro([0.8, 0.0, 0.6], [0.0, 1.0, 0.0]),
+        gyro([0.0, 0.8, 0.6], [-1.0, 0.0, 0.0]),
+        gyro([-0.8, 0.0, 0.6], [0.0, -1.0, 0.0]),
+        gyro([0.0, -0.8, 0.6], [1.0, 0.0, 0.0]),
+    ]
+}
+
+/// Three thrusters at each corner of a box, pushing inwards: any torque, any force.
+pub(crate) fn thrusters(force: f64) -> Vec<Thruster<f64>> {
+    let mut set = vec![];
+    for corner in 0..8_u32 {
+        let side = |bit: u32| if corner >> bit & 1 == 0 { 1.0 } else { -1.0 };
+        let (x, y, z) = (side(0), side(1), side(2));
+        for push in [vec3(-x, 0.0, 0.0), vec3(0.0, -y, 0.0), vec3(0.0, 0.0, -z)] {
+            set.push(Thruster {
+                position_B: vec3(x, 0.8 * y, 0.7 * z),
+                direction_B: push,
+                force,
+                minimum_on_time: 0.03,
+                specific_impulse: 230.0,
+                ..Thruster::default()
+            });
+        }
+    }
+    set
+}
+
+pub(crate) fn actuators(
+    wheels: &[ReactionWheel<f64>],
+    gyros: &[ControlMomentGyro<f64>],
+    thrusters: &[Thruster<f64>],
+) -> Actuators<f64> {
+    Actuators {
+        wheels: List::new(wheels),
+        gyros: List::new(gyros),
+        thrusters: List::new(thrusters),
+        tank: None,
+    }
+}
+
+/// The plainest laws; thrusters hold the position.
+pub(crate) fn setup(actuators: &Actuators<f64>) -> SteeringSetup<f64> {
+    SteeringSetup {
+        actuators: *actuators,
+        wheels: WheelLaw::default(),
+        gyros: GyroLaw::default(),
+        modulation: Modulation { gain: 10.0, lag: 1.0, on_level: 0.45, off_level: 0.15 },
+        holds_position: true,
+        unloading: None,
+    }
+}
+
+pub(crate) fn unloading() -> Unloading<f64> {
+    Unloading { target_B: Vec3::zero(), gain: 0.1, start: 10.0, stop: 2.0, active: false }
+}
+
+/// Torque and force wanted of a base that stands still, its centre of mass beside the origin.
+pub(crate) fn needs(torque: [f64; 3], force: [f64; 3]) -> Needs<f64> {
+    Needs {
+        wanted: SpatialForce::new(Vec3::from_array(torque), Vec3::from_array(force)),
+        w_NB_B: Vec3::zero(),
+        p_BScm_B: vec3(0.13, -0.21, 0.08),
+        period: PERIOD,
+    }
+}
+
+/// Steering and what it steers.
+pub(crate) struct Bench {
+    pub(crate) steering: Steering<f64>,
+    pub(crate) actuators: Actuators<f64>,
+    pub(crate) readings: ActuatorReadings<f64>,
+    /// What a bearing takes of its motor's torque (N·m).
+    pub(crate) friction: [f64; WHEELS],
+    /// Bandwidth of the gimbal servos (rad/s); infinite: they answer at once.
+    pub(crate) servo: f64,
+    /// A gimbal that does not move, whatever it is told.
+    pub(crate) stuck: Option<usize>,
+    pub(crate) last: Steered<f64>,
+}
+
+impl Bench {
+    pub(crate) fn new(setup: &SteeringSetup<f64>) -> Self {
+        Self {
+            steering: Steering::new(setup),
+            actuators: setup.actuators,
+            readings: ActuatorReadings::default(),
+            friction: [0.0; WHEELS],
+            servo: f64::INFINITY,
+            stuck: None,
+            last: Steered::nothing(),
+        }
+    }
+    /// Momentum inside, base axes (N·m·s).
+    pub(crate) fn stored(&self) -> Vec3<f64> {
+        self.actuators.wheel_momentum(&self.readings.wheel_speed)
+            + self.actuators.gyro_momentum(&self.readings.gimbal_angle)
+    }
+    /// One period; the mean torque (N·m) and force (N) that the bodies feel of it, about the centre
+    /// of mass: what the momentum inside loses, its gyroscopic torque, and the pulses.
+    pub(crate) fn step(&mut self, needs: &Needs<f64>) -> SpatialForce<f64> {
+        self.last = self.steering.steer(needs, &self.readings);
+        let before = self.stored();
+        self.obey(needs.period);
+        let change = (self.stored() - before) * (1.0 / needs.period);
+        let inside = -change - needs.w_NB_B.cross(before);
+        pulses(&self.actuators, &self.last.command, needs) + SpatialForce::new(inside, Vec3::zero())
+    }
+    fn obey(&mut self, period: f64) {
+        let (told, readings) = (&self.last.command, &mut self.readings);
+        for (k, wheel) in self.actuators.wheels.iter().enumerate() {
+            let torque = told.wheel_torque[k] - self.friction[k];
+            readings.wheel_speed[k] += torque / wheel.inertia * period;
+        }
+        for k in (0..GYROS).filter(|&k| self.stuck != Some(k)) {
+            // A lag of first order, solved over the period.
+            let left = (-self.servo * period).exp();
+            let behind = readings.gimbal_rate[k] - told.gimbal_rate[k];
+            let lag = if self.servo.is_finite() { (1.0 - left) / self.servo } else { 0.0 };
+            readings.gimbal_angle[k] += told.gimbal_rate[k] * period + behind * lag;
+            readings.gimbal_rate[k] = told.gimbal_rate[k] + behind * left;
+        }
+    }
+}
+
+/// Mean torque and force of the pulses over a period, about the centre of mass.
+pub(crate) fn pulses(
+    actuators: &Actuators<f64>,
+    told: &ActuatorCommand<f64>,
+    needs: &Needs<f64>,
+) -> SpatialForce<f64> {
+    let each = actuators.thrusters.iter().zip(told.thruster_on);
+    let (mut about_origin, mut force) = (Vec3::zero(), Vec3::zero());
+    for (thruster, on) in each {
+        let push = thruster.direction_B * (thruster.force * on / needs.period);
+        force += push;
+        about_origin += thruster.position_B.cross(push);
+    }
+    // Moved from the base's origin to the centre of mass as a whole.
+    SpatialForce::new(about_origin - needs.p_BScm_B.cross(force), force)
+}
+
+/// What the gyros' momentum changes by at these gimbal rates, by differences (N·m).
+pub(crate) fn gyro_torque(
+    actuators: &Actuators<f64>,
+    angles: &[f64; GYROS],
+    rates: &[f64; GYROS],
+) -> Vec3<f64> {
+    let h = 1e-4;
+    let at = |t: f64| {
+        let moved: [f64; GYROS] = std::array::from_fn(|k| angles[k] + rates[k] * t);
+        actuators.gyro_momentum(&moved)
+    };
+    (at(h) - at(-h)) * (0.5 / h)
+}
+
+/// Largest element.
+pub(crate) fn size(v: Vec3<f64>) -> f64 {
+    v.to_array().into_iter().map(f64::abs).fold(0.0, f64::max)
+}
