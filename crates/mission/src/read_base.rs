@@ -8,7 +8,7 @@ use crate::format::{BaseFile, FeedforwardFile, MissionFile};
 use crate::mission::FailureCase;
 use crate::read_setup::{attitude, axes, tool, vector};
 use crate::reading::Reading;
-use wrasse_document::{Step, at};
+use wrasse_document::{Severity, Step, at};
 use wrasse_flight::steering::{
     Damping, GyroLaw, GyroSharing, Modulation, SteeringSetup, Unit, Unloading, Waves, WheelLaw,
     WheelSharing,
@@ -26,6 +26,7 @@ pub(crate) fn equipment(r: &mut Reading<'_>, file: &MissionFile) -> Equipment {
         Some(given) => {
             let path = at!["actuators"];
             let (equipment, found) = read_equipment(r.document, path, given);
+            r.knows_actuators = found.iter().all(|c| c.severity != Severity::Error);
             r.complaints.extend(found);
             let robot = &r.vehicle.robot;
             r.complaints.extend(check_equipment(r.document, path, &equipment, robot));
@@ -70,7 +71,7 @@ pub(crate) fn turning(r: &mut Reading<'_>, file: &MissionFile, equipment: &Equip
     if file.world.base_attitude != BaseFile::Controlled {
         return Turning::Ideal(ideal);
     }
-    let none = equipment.actuators.is_empty();
+    let none = r.knows_actuators && equipment.actuators.is_empty();
     let add = "add [actuators] to the mission or to the vehicle's file";
     match file.control.actuators {
         Some(ActuatorsFile::Unlimited) => return Turning::Ideal(None),
@@ -110,12 +111,16 @@ pub(crate) fn base_control(
         damping: r
             .not_negative(at!["control", "position_hold", "damping_ratio"], hold.damping_ratio),
     });
-    if position_hold.is_some() && fitted.is_none_or(|e| e.actuators.thrusters.is_empty()) {
+    let known = r.knows_actuators;
+    if known && position_hold.is_some() && fitted.is_none_or(|e| e.actuators.thrusters.is_empty()) {
         let message = "only thrusters can hold a position: there are none".into();
         let help = "add [[actuators.thruster]], or leave position_hold out";
         r.error(at!["control", "position_hold"], message, help);
     }
     let steering = steering(r, &c.steering);
+    if let (true, Some(equipment), Some(_)) = (known, fitted, steering.unloading) {
+        check_unloading(r, equipment);
+    }
     BaseControlSetup {
         feedforward: match c.feedforward {
             FeedforwardFile::Exact => Feedforward::Exact,
@@ -130,6 +135,19 @@ pub(crate) fn base_control(
             ..steering
         }),
         position_hold,
+    }
+}
+
+/// Thrusters empty wheels and gyros: both must be there.
+fn check_unloading(r: &mut Reading<'_>, equipment: &Equipment) {
+    let path = at!["control", "steering", "unloading"];
+    let help = "add them to [actuators], or leave unloading out";
+    let actuators = &equipment.actuators;
+    if actuators.thrusters.is_empty() {
+        r.error(path, "unloading takes thrusters: there are none".into(), help);
+    }
+    if actuators.wheels.is_empty() && actuators.gyros.is_empty() {
+        r.error(path, "unloading takes wheels or gyros to empty: there are none".into(), help);
     }
 }
 
@@ -261,7 +279,11 @@ pub(crate) fn failures(
         let path = |key| [Step::Key("failure"), Step::Index(i), Step::Key(key)];
         let at = r.not_negative(&path("at_s"), f.at_s);
         let told_at = f.told_after_s.map(|after| at + r.not_negative(&path("told_after_s"), after));
-        if r.find(&path("unit"), "wheel, gyro or thruster", &f.unit, &names).is_none() {
+        let there = names.contains(&f.unit);
+        if !there && r.knows_actuators {
+            r.find(&path("unit"), "wheel, gyro or thruster", &f.unit, &names);
+        }
+        if !there {
             continue;
         }
         let place = |group: &[String]| group.iter().position(|n| *n == f.unit);

@@ -152,7 +152,8 @@ fn read_case(
 ) -> Result<(Case, Vec<Complaint>), Vec<Complaint>> {
     let file: MissionFile = document.read()?;
     let vehicle = vehicle_of(&file, document)?;
-    let mut reading = Reading { document, complaints: vec![], vehicle: &vehicle };
+    let mut reading =
+        Reading { document, complaints: vec![], vehicle: &vehicle, knows_actuators: true };
     let r = &mut reading;
     let start = start(r, &file);
     let equipment = equipment(r, &file);

@@ -9,6 +9,8 @@ pub(crate) struct Reading<'a> {
     pub(crate) document: &'a Document,
     pub(crate) complaints: Vec<Complaint>,
     pub(crate) vehicle: &'a Vehicle,
+    /// Whether the actuators could be read: of some that could not, nothing is said to be missing.
+    pub(crate) knows_actuators: bool,
 }
 
 impl Reading<'_> {

@@ -74,7 +74,7 @@ fn doubt_pulses(r: &mut Reading<'_>, sampling: &Sampling<'_>, modulation: &Modul
     let slowest = thrusters.max_by(|a, b| a.1.minimum_on_time.total_cmp(&b.1.minimum_on_time));
     let Some((name, thruster)) = slowest else { return };
     let (shortest, least) = (modulation.shortest_pulse(), thruster.minimum_on_time);
-    if shortest < least * NEARLY {
+    if shortest > 0.0 && shortest < least * NEARLY {
         let message = format!(
             "the modulation makes pulses down to {} s, and thruster {name} opens for {least} s at \
              least: it gives more than is wanted where little is wanted",
