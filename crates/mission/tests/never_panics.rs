@@ -5,7 +5,7 @@ use proptest::test_runner::RngSeed;
 use wrasse_document::{Severity, render};
 use wrasse_mission::{End, Mission, RunOptions, read_mission, run};
 
-const SHIPPED: [&str; 9] = [
+const SHIPPED: [&str; 19] = [
     include_str!("../../../missions/atlas-reach.toml"),
     include_str!("../../../missions/coast.toml"),
     include_str!("../../../missions/ets-vii-reach.toml"),
@@ -15,6 +15,16 @@ const SHIPPED: [&str; 9] = [
     include_str!("../../../missions/miss-distance/feedforward.toml"),
     include_str!("../../../missions/miss-distance/laws.toml"),
     include_str!("../../../missions/miss-distance/overshoot.toml"),
+    include_str!("../../../missions/base-control/gimbal-stuck.toml"),
+    include_str!("../../../missions/base-control/gyros.toml"),
+    include_str!("../../../missions/base-control/hybrid.toml"),
+    include_str!("../../../missions/base-control/noisy-tracker.toml"),
+    include_str!("../../../missions/base-control/singular-gyros.toml"),
+    include_str!("../../../missions/base-control/tank-empty.toml"),
+    include_str!("../../../missions/base-control/thrusters.toml"),
+    include_str!("../../../missions/base-control/wheel-fails.toml"),
+    include_str!("../../../missions/base-control/wheels-saturate.toml"),
+    include_str!("../../../missions/base-control/wheels.toml"),
 ];
 
 /// What can stand in place of a number: TOML knows nan and inf.
@@ -36,7 +46,7 @@ const NUMBERS: [&str; 14] = [
 ];
 
 /// Words that turn one valid mission into another, or into a mistake that is nearly one.
-const WORDS: [&str; 22] = [
+const WORDS: [&str; 36] = [
     "\"",
     "[",
     "]]",
@@ -59,6 +69,20 @@ const WORDS: [&str; 22] = [
     "ä\u{301}",
     "1979-05-27",
     "'''",
+    "actuators = \"ideal\"\n",
+    "actuators = \"unlimited\"\n",
+    "actuators = \"fitted\"\n",
+    "sensing = \"fitted\"\n",
+    "feel_tool_wrench = true\n",
+    "wheels = \"minimum-peak\"\n",
+    "gyros = \"singularity-robust\"\n",
+    "position_hold = { bandwidth_rad_s = 0.5 }\n",
+    "unloading = { begins_at_nms = 0.01, ends_at_nms = 0.001, gain_per_s = 0.5 }\n",
+    "gimbal_angles_deg = [90, 90, 90, 90], ",
+    "[[failure]]\nunit = \"g-1\"\nkind = \"stuck\"\nat_s = 0.01\n",
+    "[[failure]]\nunit = \"t-1\"\nkind = \"open\"\nat_s = 0.01\ntold_after_s = 0.01\n",
+    "[[failure]]\nunit = \"w1\"\nkind = \"dead\"\nat_s = 0.01\n",
+    "[[world.applied_wrench]]\non = \"tool\"\ntorque_nm = [1e3, 0, 0]\nfrom_s = 0\nduration_s = 0.03\n",
 ];
 
 /// Every complaint has a place in its own text, and words.
@@ -134,11 +158,20 @@ fn hurried(text: &str) -> String {
         if let Some(at) = line.find("limits = {") {
             line.replace_range(at.., "duration_s = 0.03 }");
         }
-        let mut from = 0;
-        while let Some(at) = line[from..].find("duration_s = ").map(|at| from + at + 13) {
-            let end = line[at..].find([',', ' ', '}']).map_or(line.len(), |end| at + end);
-            line.replace_range(at..end, "0.03");
-            from = at;
+        // What happens on the way happens within these periods, too.
+        for (key, time) in [
+            ("duration_s = ", "0.03"),
+            ("from_s = ", "0.005"),
+            ("ramp_s = ", "0.01"),
+            ("at_s = ", "0.01"),
+            ("told_after_s = ", "0.01"),
+        ] {
+            let mut from = 0;
+            while let Some(at) = line[from..].find(key).map(|at| from + at + key.len()) {
+                let end = line[at..].find([',', ' ', '}']).map_or(line.len(), |end| at + end);
+                line.replace_range(at..end, time);
+                from = at;
+            }
         }
         short = short + &line + "\n";
     }
