@@ -9,18 +9,21 @@ use crate::navigation::{Navigation, NavigationSetup};
 use crate::phase::{Held, JointTarget, Path, Phase};
 use crate::resolved_motion::{
     Assignment, Belief, JointUse, Resolved, ResolvedMotion, WantedMotion, answered_motion,
-    answered_twist, moved_on, resolved_motion, task_jacobian,
+    answered_twist, moved_on, resolved_motion,
 };
 use crate::sequence::{BadPhase, NoWay, Sequence};
-use crate::steering::{Steered, Unit};
-use crate::tool_pose::{Unreachable, joints_for_tool};
+use crate::steering::{NoRelief, ReliefUse, Steered, ToolTask, Unit, posture_relief};
+use crate::tool_pose::joints_for_tool;
 use crate::tool_wrench::against_tool_wrench;
 use crate::trajectory::ToolMotion;
-use wrasse_dynamics::{Frame, Robot, State, kinematics, mass_matrix, momentum};
+use wrasse_dynamics::{Robot, State, kinematics, mass_matrix, momentum};
 use wrasse_hardware::{JointLimits, SetPoint, SetPointMotion};
 use wrasse_spatial::{
-    Dual, Pose, Quat, Scalar, SpatialInertia, SpatialMomentum, SpatialVelocity, Vec3,
+    Dual, Pose, Quat, Scalar, SpatialForce, SpatialInertia, SpatialMomentum, SpatialVelocity, Vec3,
 };
+
+/// Time in which joints take up the rates that relieve the base (s).
+const RELIEF_APPROACH: f64 = 0.5;
 
 /// How a flight computer is set up.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,23 +47,27 @@ pub struct Setup<T, const J: usize> {
 /// What flies: one call per control period.
 #[derive(Debug, Clone)]
 pub struct FlightComputer<T, const J: usize> {
-    setup: Setup<T, J>,
-    robot: Robot<T, J>,
+    pub(crate) setup: Setup<T, J>,
+    pub(crate) robot: Robot<T, J>,
     dual_robot: Robot<Dual<T>, J>,
-    navigation: Navigation<T, J>,
+    pub(crate) navigation: Navigation<T, J>,
     base_control: BaseControl<T>,
-    sequence: Sequence<T, J>,
-    path: Path<T, J>,
+    pub(crate) sequence: Sequence<T, J>,
+    pub(crate) path: Path<T, J>,
     /// Whether the sensors were read once.
     started: bool,
-    belief: Belief<T, J>,
+    pub(crate) belief: Belief<T, J>,
     /// Set-points and motion at the start of the coming period.
     now: [SetPoint<T>; J],
-    motion: ResolvedMotion<T, J>,
+    pub(crate) motion: ResolvedMotion<T, J>,
     /// Measured twist of the base less the one that the law believed in (rad/s, m/s).
     surprise: SpatialVelocity<T>,
-    reference: ToolMotion<T>,
-    axes: Axes,
+    pub(crate) reference: ToolMotion<T>,
+    pub(crate) axes: Axes,
+    /// What pushes at the tool, at its origin in its axes, if that is felt.
+    tool_wrench_E: Option<SpatialForce<T>>,
+    /// Why the posture cannot relieve the base, if it was asked to.
+    no_relief: Option<NoRelief<T>>,
 }
 
 impl<T: Scalar, const J: usize> FlightComputer<T, J> {
@@ -95,6 +102,8 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
                 Vdot_NE_N: SpatialVelocity::zero(),
             },
             axes: Axes::Inertial,
+            tool_wrench_E: None,
+            no_relief: None,
         }
     }
 
@@ -106,6 +115,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         let period = self.setup.tuning.period;
         let state = self.navigation.estimate(sensed, &self.motion.qddot, period);
         self.look(&state);
+        (self.tool_wrench_E, self.no_relief) = (sensed.tool_wrench_E, None);
         let mut grip = None;
         if self.sequence.is_over() {
             let begun = self.begin_next();
@@ -167,7 +177,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     }
 
     /// Pose of the tool as it is believed to be.
-    fn believed_tool(&self, axes: Axes) -> Pose<T> {
+    pub(crate) fn believed_tool(&self, axes: Axes) -> Pose<T> {
         let X_NB = match axes {
             Axes::Inertial => self.belief.X_NB,
             Axes::Base => Pose::identity(),
@@ -195,6 +205,9 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
                 (Path::Joints(way), way.duration())
             }
             Some(Phase::Hold { what, duration }) => (Path::Still(what), duration),
+            Some(Phase::Relieve { task, gain, duration }) => {
+                (Path::Relief { task, gain }, duration)
+            }
             Some(Phase::Grip(told)) => {
                 grip = Some(told);
                 (Path::Still(Held::Joints), period)
@@ -271,6 +284,12 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
                 self.axes = Axes::Inertial;
                 self.reference = at_rest(self.believed_tool(Axes::Inertial));
             }
+            Path::Relief { task, gain } => {
+                let (qdot, qddot) = self.relieve(task, gain, t);
+                self.motion = self.answer(&qdot, &qddot);
+                self.axes = Axes::Inertial;
+                self.reference = at_rest(self.believed_tool(Axes::Inertial));
+            }
             Path::Still(Held::Joints) => {
                 self.belief.q = self.now.map(|s| s.position);
                 self.motion = self.answer(&still, &still);
@@ -280,6 +299,32 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
                 self.motion = self.answer(&rates, &still);
             }
         }
+    }
+
+    /// Joint rates and accelerations at time `t` (s) that lower what the push at the tool asks of the
+    /// base: what would be best is approached, and left in time before the phase ends, for rates that
+    /// jumped would ask for any torque.
+    fn relieve(&mut self, task: ToolTask, gain: T, t: T) -> ([T; J], [T; J]) {
+        let (state, period) = (self.believed_state(), self.setup.tuning.period);
+        let approach = T::from_f64(RELIEF_APPROACH);
+        let left = self.sequence.duration(period) - t;
+        let k = kinematics(&self.robot, &state);
+        let R_NE = k.pose(self.tool()).rotation;
+        let F_E = self.tool_wrench_E.unwrap_or_default();
+        let F_N = SpatialForce::new(R_NE * F_E.torque, R_NE * F_E.force);
+        let joints = ReliefUse { task, gain, rate_limit: self.setup.joints.rate_limit };
+        let mut best = [T::zero(); J];
+        match posture_relief(&k, self.tool(), &F_N, &joints) {
+            Ok(relief) if left > approach * T::from_f64(6.0) => best = relief.qdot,
+            Ok(_) => {}
+            Err(reason) => self.no_relief = Some(reason),
+        }
+        let (mut qdot, mut qddot) = (state.v, [T::zero(); J]);
+        for j in self.robot.joints() {
+            qddot[j] = (best[j] - qdot[j]) / approach;
+            qdot[j] += qddot[j] * period;
+        }
+        (qdot, qddot)
     }
 
     /// How the joints may be used at time `t` (s) of the phase: the drift to the posture comes and
@@ -362,7 +407,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
             let (law, robot) = (self.setup.assignment.law, &self.robot);
             effort = computed_torque(robot, law, &tuning, &ahead, &middle, &acceleration);
             let mut ahead_B = feedforward_torque(robot, self.setup.base.feedforward, &middle);
-            if let Some(F_E) = &sensed.tool_wrench_E {
+            if let Some(F_E) = &self.tool_wrench_E {
                 let tool = &self.setup.assignment.tool;
                 let (against, turning_B) = against_tool_wrench(robot, law, tool, state, F_E);
                 for j in robot.joints() {
@@ -386,6 +431,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
             attitude_torque_B,
             actuators: steered.command,
             steering: steered.report,
+            no_relief: self.no_relief,
             grip: None,
             phase: self.sequence.number(),
             reference: self.reference,
@@ -416,71 +462,12 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         self.base_control.isolate(unit);
     }
 
-    /// What the navigation makes of gyro and star tracker, if it has them.
-    pub fn navigation(&self) -> &Navigation<T, J> {
-        &self.navigation
-    }
-
     /// The robot has taken hold of something, or let go: what it is from now on.
     pub fn robot_changed(&mut self, robot: &Robot<f64, J>) {
         self.robot = robot.cast();
         self.dual_robot = robot.cast();
         let believed = self.believed_state();
         self.belief.h_Scm_N = momentum_of(&self.robot, &believed);
-    }
-
-    /// Where the law believes the vehicle to be, and how it moves.
-    pub fn believed_state(&self) -> State<T, J> {
-        State {
-            X_NB: self.belief.X_NB,
-            V_NB_B: self.motion.rate.V_NB_B,
-            q: self.belief.q,
-            v: self.motion.rate.qdot,
-        }
-    }
-
-    /// The robot as the laws know it.
-    pub fn robot(&self) -> &Robot<T, J> {
-        &self.robot
-    }
-
-    /// The tool frame that is guided.
-    pub fn tool(&self) -> &Frame<T> {
-        &self.setup.assignment.tool
-    }
-
-    /// How far the law believes the tool to be from its reference: distance (m) and angle (rad).
-    pub fn believed_tool_error(&self) -> (T, T) {
-        let (X, wanted) = (self.believed_tool(self.axes), self.reference.X_NE);
-        let turned = Quat::from_matrix(&(wanted.rotation * X.rotation.transpose())).log();
-        ((wanted.translation - X.translation).norm(), turned.norm())
-    }
-
-    /// The law's Jacobian now: columns are the tool's twist per joint rate.
-    pub fn task_jacobian(&self) -> [SpatialVelocity<T>; J] {
-        let to = Assignment { axes: self.axes, ..self.setup.assignment };
-        task_jacobian(&self.robot, &to, &self.belief)
-    }
-
-    /// What is left of the line's end at the nearest joint positions that the law can find, if the
-    /// end of the current line is out of reach. A floating base is taken as held here: where it ends
-    /// depends on the way.
-    pub fn end_out_of_reach(&self) -> Option<Unreachable<T>> {
-        let Path::Line(line, axes) = self.path else { return None };
-        let X = line.at(line.duration()).X_NE;
-        let (tool, law) = (&self.setup.assignment.tool, self.setup.assignment.law);
-        let state = State { X_NB: self.belief.X_NB, q: self.belief.q, ..State::default() };
-        joints_for_tool(&self.robot, tool, &state, &X, axes, law, &self.setup.limits).err()
-    }
-
-    /// Whether the current phase moves the tool along a line.
-    pub fn follows_tool(&self) -> bool {
-        matches!(self.path, Path::Line(..) | Path::Still(Held::Tool))
-    }
-
-    /// Whether all phases are done.
-    pub fn done(&self) -> bool {
-        self.sequence.is_done()
     }
 }
 

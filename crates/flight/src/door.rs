@@ -1,6 +1,6 @@
 //! The door between what flies and the rest: plain data in, plain data out, once per control period.
 
-use crate::steering::SteeringReport;
+use crate::steering::{NoRelief, SteeringReport};
 use crate::trajectory::ToolMotion;
 use wrasse_dynamics::State;
 use wrasse_hardware::{ActuatorCommand, ActuatorReadings, SetPoint, TrackerReading};
@@ -72,6 +72,8 @@ pub struct Command<T, const J: usize> {
     pub actuators: ActuatorCommand<T>,
     /// What the steering could do of what was wanted.
     pub steering: SteeringReport<T>,
+    /// Why the posture cannot relieve the base, where that is the phase.
+    pub no_relief: Option<NoRelief<T>>,
     /// What the grip should do now.
     pub grip: Option<Grip>,
     /// Number of the phase that this period belongs to; the number of phases when all are done.

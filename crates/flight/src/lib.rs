@@ -11,6 +11,7 @@ mod attitude_estimator;
 mod base_control;
 mod computed_torque;
 mod computer;
+mod computer_answers;
 mod door;
 mod error_covariance;
 mod feedforward;

@@ -1,6 +1,7 @@
 //! Phases of a mission, as the flight computer knows them.
 
 use crate::door::{Axes, Grip};
+use crate::steering::ToolTask;
 use crate::trajectory::{
     BadNumbers, JointMove, MotionLimits, Profile, ProfileShape, Quintic, StraightLine,
 };
@@ -32,6 +33,15 @@ pub enum Phase<T, const J: usize> {
     Hold {
         /// What stays.
         what: Held,
+        /// For how long (s).
+        duration: T,
+    },
+    /// The arm moves so that what pushes at the tool asks the base to store less, without turning it.
+    Relieve {
+        /// What of the tool must stay.
+        task: ToolTask,
+        /// Rate at which what can be lowered fades (1/s).
+        gain: T,
         /// For how long (s).
         duration: T,
     },
@@ -108,6 +118,7 @@ pub enum JointTiming<T, const J: usize> {
 pub(crate) enum Path<T, const J: usize> {
     Line(StraightLine<T>, Axes),
     Joints(JointMove<T, J>),
+    Relief { task: ToolTask, gain: T },
     Still(Held),
 }
 

@@ -374,6 +374,10 @@ impl<'a> Flight<'a> {
             let text = format!("thrusters {done} wheels and gyros: {stored:.2} N·m·s are stored");
             self.say(EventKind::Limit, text);
         }
+        if let Some(reason) = command.no_relief {
+            let text = format!("the posture cannot relieve the base: {reason}");
+            self.tell_once(Passed::NoRelief, text);
+        }
         if self.sensing.blinded {
             let text = "the base turns too fast for its star tracker".into();
             self.tell_once(Passed::Blinded, text);

@@ -17,6 +17,7 @@ pub(crate) enum Passed {
     TorqueMissing,
     ForceMissing,
     Blinded,
+    NoRelief,
     Singular,
 }
 

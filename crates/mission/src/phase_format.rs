@@ -17,6 +17,9 @@ pub(crate) struct PhaseFile {
     pub(crate) move_joints: Option<MoveJointsFile>,
     /// Nothing new is asked for a while.
     pub(crate) hold: Option<HoldFile>,
+    /// The arm moves so that what pushes at the tool asks the base to store less momentum, without
+    /// turning it.
+    pub(crate) relieve: Option<RelieveFile>,
     /// The tool grasps a free payload.
     pub(crate) grasp: Option<GraspFile>,
     /// The tool lets go of a payload.
@@ -170,6 +173,39 @@ pub(crate) struct HoldFile {
 
 fn joints() -> KeepFile {
     KeepFile::Joints
+}
+
+/// What of the tool must stay while the posture relieves the base.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum ToolTaskFile {
+    /// Nothing: the force goes along with the tool.
+    Nothing,
+    /// How it is turned.
+    #[default]
+    Orientation,
+    /// Where it is.
+    Position,
+    /// Both.
+    Pose,
+}
+
+/// A posture that relieves the base.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RelieveFile {
+    /// For how long.
+    pub(crate) duration_s: f64,
+    /// What of the tool must stay.
+    #[serde(default)]
+    pub(crate) keep: ToolTaskFile,
+    /// How fast what can be lowered fades.
+    #[serde(default = "tenth")]
+    pub(crate) gain_per_s: f64,
+}
+
+fn tenth() -> f64 {
+    0.1
 }
 
 /// A grasp.

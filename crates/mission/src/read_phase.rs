@@ -4,7 +4,7 @@ use crate::format::{ArmLawFile, MissionFile};
 use crate::mission::PhaseCase;
 use crate::phase_format::{
     AxesFile, GraspFile, JointLimitsFile, KeepFile, MoveJointsFile, MoveToolFile, PhaseFile,
-    ShapeFile, ToolLimitsFile, ToolPoseFile,
+    RelieveFile, ShapeFile, ToolLimitsFile, ToolPoseFile, ToolTaskFile,
 };
 use crate::read_setup::{
     RATES, attitude, axes, by_joint, place_of_position, posture, radians, vector,
@@ -12,6 +12,7 @@ use crate::read_setup::{
 use crate::reading::Reading;
 use wrasse_document::{Step, at};
 use wrasse_dynamics::JointKind;
+use wrasse_flight::steering::ToolTask;
 use wrasse_flight::trajectory::{MotionLimits, ProfileShape};
 use wrasse_flight::{Grip, Held, JointTarget, JointTiming, LONGEST, Phase, Target, Timing};
 use wrasse_spatial::{Pose, Vec3};
@@ -30,6 +31,7 @@ pub(crate) fn phase(
         (file.move_tool.is_some(), "move_tool"),
         (file.move_joints.is_some(), "move_joints"),
         (file.hold.is_some(), "hold"),
+        (file.relieve.is_some(), "relieve"),
         (file.grasp.is_some(), "grasp"),
         (file.release.is_some(), "release"),
     ];
@@ -38,7 +40,8 @@ pub(crate) fn phase(
         let found = if said.is_empty() { "none".into() } else { said.join(" and ") };
         let message =
             format!("phase {:?} must say exactly one thing to do, found {found}", file.name);
-        let help = "one of move_tool, move_joints, hold, grasp, release; write a phase for each";
+        let help =
+            "one of move_tool, move_joints, hold, relieve, grasp, release; write a phase for each";
         r.error(at!["phase", i], message, help);
         return None;
     }
@@ -55,6 +58,8 @@ pub(crate) fn phase(
             KeepFile::Nothing => Held::Nothing,
         };
         Phase::Hold { what, duration }
+    } else if let Some(given) = &file.relieve {
+        relieve(r, i, given, mission)
     } else if let Some(grasp) = &file.grasp {
         grasp_bounds = bounds(r, i, grasp);
         let path = at!["phase", i, "grasp", "payload"];
@@ -65,6 +70,30 @@ pub(crate) fn phase(
         Phase::Grip(Grip::Release(r.find(path, "payload", name, payloads)?))
     };
     Some(PhaseCase { name: file.name.clone(), phase, grasp_bounds })
+}
+
+fn relieve(
+    r: &mut Reading<'_>,
+    i: usize,
+    file: &RelieveFile,
+    mission: &MissionFile,
+) -> Phase<f64, JOINTS> {
+    let path = |key| [Step::Key("phase"), Step::Index(i), Step::Key("relieve"), Step::Key(key)];
+    if !mission.control.feel_tool_wrench {
+        let message = "nothing is known of what pushes at the tool".into();
+        let help = "set control.feel_tool_wrench = true: a force-torque sensor at the tool";
+        r.error(at!["phase", i, "relieve"], message, help);
+    }
+    Phase::Relieve {
+        task: match file.keep {
+            ToolTaskFile::Nothing => ToolTask::Free,
+            ToolTaskFile::Orientation => ToolTask::Orientation,
+            ToolTaskFile::Position => ToolTask::Position,
+            ToolTaskFile::Pose => ToolTask::Pose,
+        },
+        gain: r.positive(&path("gain_per_s"), file.gain_per_s),
+        duration: duration(r, &path("duration_s"), file.duration_s, mission),
+    }
 }
 
 fn bounds(r: &mut Reading<'_>, i: usize, grasp: &GraspFile) -> (f64, f64) {

@@ -1,0 +1,70 @@
+//! What others may ask the flight computer: what it believes, and how it judges its way.
+
+use crate::computer::FlightComputer;
+use crate::navigation::Navigation;
+use crate::phase::{Held, Path};
+use crate::resolved_motion::{Assignment, task_jacobian};
+use crate::tool_pose::{Unreachable, joints_for_tool};
+use wrasse_dynamics::{Frame, Robot, State};
+use wrasse_spatial::{Quat, Scalar, SpatialVelocity};
+
+impl<T: Scalar, const J: usize> FlightComputer<T, J> {
+    /// What the navigation makes of gyro and star tracker, if it has them.
+    pub fn navigation(&self) -> &Navigation<T, J> {
+        &self.navigation
+    }
+
+    /// Where the law believes the vehicle to be, and how it moves.
+    pub fn believed_state(&self) -> State<T, J> {
+        State {
+            X_NB: self.belief.X_NB,
+            V_NB_B: self.motion.rate.V_NB_B,
+            q: self.belief.q,
+            v: self.motion.rate.qdot,
+        }
+    }
+
+    /// The robot as the laws know it.
+    pub fn robot(&self) -> &Robot<T, J> {
+        &self.robot
+    }
+
+    /// The tool frame that is guided.
+    pub fn tool(&self) -> &Frame<T> {
+        &self.setup.assignment.tool
+    }
+
+    /// How far the law believes the tool to be from its reference: distance (m) and angle (rad).
+    pub fn believed_tool_error(&self) -> (T, T) {
+        let (X, wanted) = (self.believed_tool(self.axes), self.reference.X_NE);
+        let turned = Quat::from_matrix(&(wanted.rotation * X.rotation.transpose())).log();
+        ((wanted.translation - X.translation).norm(), turned.norm())
+    }
+
+    /// The law's Jacobian now: columns are the tool's twist per joint rate.
+    pub fn task_jacobian(&self) -> [SpatialVelocity<T>; J] {
+        let to = Assignment { axes: self.axes, ..self.setup.assignment };
+        task_jacobian(&self.robot, &to, &self.belief)
+    }
+
+    /// What is left of the line's end at the nearest joint positions that the law can find, if the
+    /// end of the current line is out of reach. A floating base is taken as held here: where it ends
+    /// depends on the way.
+    pub fn end_out_of_reach(&self) -> Option<Unreachable<T>> {
+        let Path::Line(line, axes) = self.path else { return None };
+        let X = line.at(line.duration()).X_NE;
+        let (tool, law) = (&self.setup.assignment.tool, self.setup.assignment.law);
+        let state = State { X_NB: self.belief.X_NB, q: self.belief.q, ..State::default() };
+        joints_for_tool(&self.robot, tool, &state, &X, axes, law, &self.setup.limits).err()
+    }
+
+    /// Whether the current phase moves the tool along a line.
+    pub fn follows_tool(&self) -> bool {
+        matches!(self.path, Path::Line(..) | Path::Still(Held::Tool))
+    }
+
+    /// Whether all phases are done.
+    pub fn done(&self) -> bool {
+        self.sequence.is_done()
+    }
+}
