@@ -53,8 +53,17 @@ pub fn run(
         version: env!("CARGO_PKG_VERSION").into(),
         seed: mission.seed,
         vehicle: vehicle_card(mission),
-        environment: "Free space: nothing acts on the vehicle but its own actuators.".into(),
+        environment: environment(mission).into(),
         cases: outcomes,
+    }
+}
+
+/// What acts on the vehicle, in a sentence.
+fn environment(mission: &Mission) -> &'static str {
+    if mission.cases.iter().all(|case| case.wrenches.is_empty()) {
+        "Free space: nothing acts on the vehicle but its own actuators."
+    } else {
+        "Free space: nothing acts on the vehicle but its own actuators and the applied wrenches."
     }
 }
 
