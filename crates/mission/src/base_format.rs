@@ -63,6 +63,10 @@ pub(crate) struct SteeringFile {
     /// How fast gimbals move away from singular settings where that gives no torque (rad/s for a unit
     /// slope of the singularity measure).
     pub(crate) gyro_null_gain_rad_s: f64,
+    /// Direction of the momentum that the gyros will have to take up, base axes, of any length: gimbals
+    /// start at angles that are searched for it, from which plain steering goes farthest without
+    /// coming near a singular setting. They replace the angles of `[actuators]`.
+    pub(crate) preferred_for: Option<[f64; 3]>,
     /// How thrusters are pulsed.
     pub(crate) modulation: ModulationFile,
     /// When thrusters empty wheels and gyros.
@@ -76,6 +80,7 @@ impl Default for SteeringFile {
             wheel_null_gain_per_s: 0.02,
             gyros: GyroLawFile::default(),
             gyro_null_gain_rad_s: 0.02,
+            preferred_for: None,
             modulation: ModulationFile::default(),
             unloading: None,
         }

@@ -11,7 +11,7 @@ use crate::reading::Reading;
 use wrasse_document::{Severity, Step, at};
 use wrasse_flight::steering::{
     Damping, GyroLaw, GyroSharing, Modulation, SteeringSetup, Unit, Unloading, Waves, WheelLaw,
-    WheelSharing,
+    WheelSharing, preferred_angles,
 };
 use wrasse_flight::{BaseControlSetup, EstimatorSetup, Feedforward, NavigationSetup, PositionHold};
 use wrasse_hardware::{AttitudeActuator, Sensors};
@@ -21,6 +21,22 @@ use wrasse_world::Failure;
 
 /// Wheels, gyros and thrusters of this mission.
 pub(crate) fn equipment(r: &mut Reading<'_>, file: &MissionFile) -> Equipment {
+    let mut equipment = given_equipment(r, file);
+    if let Some(direction) = file.control.steering.preferred_for {
+        match preferred_angles(&equipment.actuators.gyros, vector(direction)) {
+            Some(angles) => equipment.gimbal_angle = angles,
+            None => {
+                let message = "no gimbal angles can be searched for this direction".into();
+                let help = "it takes gyros whose rotors can cancel each other, and a direction that has \
+                            a length";
+                r.error(at!["control", "steering", "preferred_for"], message, help);
+            }
+        }
+    }
+    equipment
+}
+
+fn given_equipment(r: &mut Reading<'_>, file: &MissionFile) -> Equipment {
     match &file.actuators {
         None => r.vehicle.equipment.clone(),
         Some(given) => {
