@@ -23,14 +23,13 @@ use wrasse_world::Failure;
 pub(crate) fn equipment(r: &mut Reading<'_>, file: &MissionFile) -> Equipment {
     let mut equipment = given_equipment(r, file);
     if let Some(direction) = file.control.steering.preferred_for {
-        match preferred_angles(&equipment.actuators.gyros, vector(direction)) {
-            Some(angles) => equipment.gimbal_angle = angles,
-            None => {
-                let message = "no gimbal angles can be searched for this direction".into();
-                let help = "it takes gyros whose rotors can cancel each other, and a direction that has \
-                            a length";
-                r.error(at!["control", "steering", "preferred_for"], message, help);
-            }
+        if let Some(angles) = preferred_angles(&equipment.actuators.gyros, vector(direction)) {
+            equipment.gimbal_angle = angles;
+        } else {
+            let message = "no gimbal angles can be searched for this direction".into();
+            let help = "it takes gyros whose rotors can cancel each other, and a direction that has a \
+                        length";
+            r.error(at!["control", "steering", "preferred_for"], message, help);
         }
     }
     equipment
