@@ -41,13 +41,23 @@ impl<T: Scalar> BaseControlSetup<T> {
 pub(crate) struct BaseControl<T> {
     setup: BaseControlSetup<T>,
     steering: Option<Steering<T>>,
-    /// Where the centre of mass was when it was first seen, inertial axes (m).
-    p_NScm_N: Option<Vec3<T>>,
+    home: Option<Home<T>>,
+}
+
+/// Where the centre of mass is kept, and where it was last seen.
+#[derive(Debug, Clone, Copy)]
+struct Home<T> {
+    /// Where it was when it was first seen, inertial axes (m).
+    p_NScm_N: Vec3<T>,
+    /// Where it should be seen next if nothing pushes, inertial axes (m).
+    next_N: Vec3<T>,
+    /// Mass of the system (kg).
+    mass: T,
 }
 
 impl<T: Scalar> BaseControl<T> {
     pub(crate) fn new(setup: BaseControlSetup<T>) -> Self {
-        Self { steering: setup.steering.as_ref().map(Steering::new), setup, p_NScm_N: None }
+        Self { steering: setup.steering.as_ref().map(Steering::new), setup, home: None }
     }
 
     /// Torque that the base should feel (N·m, base axes) and what the actuators are told. `M_B` is the
@@ -65,7 +75,7 @@ impl<T: Scalar> BaseControl<T> {
         let w_NB_B = sensed.V_NB_B.angular;
         let (I, quat_ND) = (M_B.central(), &self.setup.quat_ND);
         let torque_B = ahead_B + attitude_torque(tuning, &I, &quat_NB, w_NB_B, quat_ND);
-        let force_B = self.holding_force(robot, sensed);
+        let force_B = self.holding_force(robot, sensed, tuning.period);
         let steered = match &mut self.steering {
             None => Steered::nothing(),
             Some(steering) => {
@@ -78,17 +88,27 @@ impl<T: Scalar> BaseControl<T> {
     }
 
     /// Force that brings the centre of mass back to where it was, base axes (N).
+    ///
+    /// What is grasped or let go, and propellant that is gone, shift the centre of mass within the
+    /// vehicle; the vehicle should not move for that, so its home shifts as much.
     fn holding_force<const J: usize>(
         &mut self,
         robot: &Robot<T, J>,
         sensed: &State<T, J>,
+        period: T,
     ) -> Vec3<T> {
         let Some(hold) = self.setup.position_hold else { return Vec3::zero() };
         let h = momentum(&kinematics(robot, sensed));
-        let home = *self.p_NScm_N.get_or_insert(h.p_NScm_N);
+        let home_N = match self.home {
+            None => h.p_NScm_N,
+            Some(home) if home.mass == h.mass => home.p_NScm_N,
+            Some(home) => home.p_NScm_N + (h.p_NScm_N - home.next_N),
+        };
+        let next_N = h.p_NScm_N + h.linear * (period / h.mass);
+        self.home = Some(Home { p_NScm_N: home_N, next_N, mass: h.mass });
         let stiffness = hold.bandwidth * hold.bandwidth * h.mass;
         let damping = T::from_f64(2.0) * hold.damping * hold.bandwidth;
-        let force_N = (home - h.p_NScm_N) * stiffness - h.linear * damping;
+        let force_N = (home_N - h.p_NScm_N) * stiffness - h.linear * damping;
         sensed.X_NB.rotation.transpose_mul(force_N)
     }
 

@@ -5,6 +5,9 @@
 #[path = "inverse_kinematics/arms.rs"]
 #[allow(dead_code, reason = "the inverse kinematics asks more of the same arms")]
 mod arms;
+#[path = "steering/bench.rs"]
+#[allow(dead_code, reason = "the steering asks more of the same bench")]
+mod bench;
 #[path = "../../dynamics/tests/counting_allocator/mod.rs"]
 mod counting_allocator;
 #[path = "laws/flights.rs"]
@@ -16,14 +19,18 @@ use flights::{Flight, aside, at_rest, drifting, robot, setup};
 use std::hint::black_box;
 use wrasse_dynamics::kinematics;
 use wrasse_flight::steering::{
-    Damping, GyroLaw, GyroSharing, Waves, WheelLaw, WheelSharing, gyro_rates, preferred_angles,
-    wheel_torques,
+    Damping, GyroLaw, GyroSharing, Steering, SteeringSetup, Unit, Waves, WheelLaw, WheelSharing,
+    gyro_rates, preferred_angles, wheel_torques,
 };
 use wrasse_flight::{
-    ArmLaw, Axes, Grip, Held, JointTarget, JointTiming, Measurement, NoWay, Phase,
+    ArmLaw, Axes, BaseReading, EstimatorSetup, FlightComputer, Grip, Held, JointReading,
+    JointTarget, JointTiming, Measurement, NavigationSetup, NoWay, Phase, PositionHold, Sensed,
 };
-use wrasse_hardware::{ControlMomentGyro, GYROS, ReactionWheel, WHEELS};
-use wrasse_spatial::{Pose, vec3};
+use wrasse_hardware::{
+    ActuatorReadings, ControlMomentGyro, GYROS, RateGyro, ReactionWheel, StarTracker,
+    TrackerReading, WHEELS,
+};
+use wrasse_spatial::{Pose, Quat, SpatialForce, Vec3, vec3};
 
 fn to_tool_pose(X: Pose<f64>) -> Phase<f64, 7> {
     let to = JointTarget::Tool(X, Axes::Base);
@@ -125,6 +132,74 @@ fn gyro_steering_allocates_nothing() {
     }
     let calls = allocations(|| {
         assert!(preferred_angles(&gyros, vec3(0.0, 1.0, 0.0)).is_some());
+    });
+    assert_eq!(calls, 0);
+}
+
+/// Everything that turns or pushes the base, by the laws that work hardest.
+fn all_groups() -> SteeringSetup<f64> {
+    let all = bench::actuators(&bench::wheels(0.2), &bench::gyros(), &bench::thrusters(22.0));
+    let (damping, waves) = (Damping { k0: 0.01, fading: 10.0 }, Waves::default());
+    SteeringSetup {
+        wheels: WheelLaw { sharing: WheelSharing::MinimumPeak, null_gain: 0.1 },
+        gyros: GyroLaw {
+            sharing: GyroSharing::GeneralizedSingularityRobust(damping, waves),
+            null_gain: 0.1,
+        },
+        unloading: Some(bench::unloading()),
+        ..bench::setup(&all)
+    }
+}
+
+/// More is wanted than there is, wheels and gyros are emptied, a wheel is lost, a reading is no number.
+#[test]
+fn steering_all_groups_allocates_nothing() {
+    let mut steering = Steering::new(&all_groups());
+    let needs = bench::needs([30.0, -20.0, 10.0], [5.0, 0.0, -8.0]);
+    let wheel_speed = [400.0, 600.0, -300.0, f64::NAN, 0.0, 0.0, 0.0, 0.0];
+    let readings = ActuatorReadings { wheel_speed, ..ActuatorReadings::default() };
+    let calls = allocations(|| {
+        for _ in 0..20 {
+            assert!(black_box(steering.steer(&needs, &readings)).report.unloading);
+        }
+        steering.isolate(Unit::Wheel(0));
+        steering.rest();
+        black_box(steering.steer(&needs, &readings));
+    });
+    assert_eq!(calls, 0);
+}
+
+/// A control period with estimates, all groups, position hold and a push at the tool.
+#[test]
+fn a_control_period_with_sensors_and_actuators_allocates_nothing() {
+    let mut setup = setup(ArmLaw::AttitudeHeld, Measurement::Base);
+    setup.base.steering = Some(all_groups());
+    setup.base.position_hold = Some(PositionHold { bandwidth: 0.1, damping: 1.0 });
+    let quat_NB = Quat::from_matrix(&at_rest().X_NB.rotation);
+    let attitude = EstimatorSetup {
+        gyro: RateGyro::default(),
+        tracker: StarTracker { boresight_B: vec3(1.0, 0.0, 0.0), ..StarTracker::default() },
+        start_attitude_sigma: 1e-3,
+        start_bias_sigma: 1e-5,
+    };
+    setup.navigation = NavigationSetup { attitude: Some(attitude), joint_bandwidth: 20.0, quat_NB };
+    let phases = [aside(Axes::Inertial, 0.2)];
+    let mut computer = FlightComputer::new(setup, &robot(), &phases);
+    let sensed = Sensed {
+        base: BaseReading::Felt {
+            rate_B: Vec3::zero(),
+            tracker: Some(TrackerReading { quat_NB, age: 0.0 }),
+            p_NB_N: at_rest().X_NB.translation,
+            v_NB_N: Vec3::zero(),
+        },
+        joints: JointReading::Encoders(at_rest().q),
+        actuators: ActuatorReadings::default(),
+        tool_wrench_E: Some(SpatialForce::new(vec3(1.0, 2.0, 3.0), vec3(10.0, 20.0, -30.0))),
+    };
+    let calls = allocations(|| {
+        while !computer.done() {
+            black_box(computer.step(&sensed).unwrap());
+        }
     });
     assert_eq!(calls, 0);
 }
