@@ -5,7 +5,7 @@ use proptest::test_runner::RngSeed;
 use wrasse_document::{Severity, render};
 use wrasse_mission::{End, Mission, RunOptions, read_mission, run};
 
-const SHIPPED: [&str; 19] = [
+const SHIPPED: [&str; 20] = [
     include_str!("../../../missions/atlas-reach.toml"),
     include_str!("../../../missions/coast.toml"),
     include_str!("../../../missions/ets-vii-reach.toml"),
@@ -19,6 +19,7 @@ const SHIPPED: [&str; 19] = [
     include_str!("../../../missions/base-control/gyros.toml"),
     include_str!("../../../missions/base-control/hybrid.toml"),
     include_str!("../../../missions/base-control/noisy-tracker.toml"),
+    include_str!("../../../missions/base-control/posture-relief.toml"),
     include_str!("../../../missions/base-control/singular-gyros.toml"),
     include_str!("../../../missions/base-control/tank-empty.toml"),
     include_str!("../../../missions/base-control/thrusters.toml"),
@@ -46,7 +47,7 @@ const NUMBERS: [&str; 14] = [
 ];
 
 /// Words that turn one valid mission into another, or into a mistake that is nearly one.
-const WORDS: [&str; 36] = [
+const WORDS: [&str; 37] = [
     "\"",
     "[",
     "]]",
@@ -69,6 +70,7 @@ const WORDS: [&str; 36] = [
     "ä\u{301}",
     "1979-05-27",
     "'''",
+    "relieve = { duration_s = 0.03, keep = \"nothing\", gain_per_s = 0.1 }\n",
     "actuators = \"ideal\"\n",
     "actuators = \"unlimited\"\n",
     "actuators = \"fitted\"\n",
