@@ -1,12 +1,12 @@
-//! What follows from the verdicts for the claim that wheels do not do and gyros are needed. Every
-//! sentence counts verdicts; none is written beforehand.
+//! What follows from the verdicts: where gyros are needed, as the claim of a study has it, where they
+//! are not, and what decides. Every sentence counts verdicts; none is written beforehand.
 
 use crate::judgement::Answer;
 use crate::outcome::{Finding, Flown, SetCard, SetKind, SetVerdict, TaskOutcome};
 
 /// The findings, in a fixed order; what does not occur is left out.
-pub(crate) fn findings(sets: &[SetCard], tasks: &[TaskOutcome]) -> Vec<Finding> {
-    let all = Verdicts { sets, tasks };
+pub(crate) fn findings(claim: &str, sets: &[SetCard], tasks: &[TaskOutcome]) -> Vec<Finding> {
+    let all = Verdicts { claimed: !claim.is_empty(), sets, tasks };
     let parts = [
         all.only_gyros(),
         all.wheels_suffice(),
@@ -23,6 +23,8 @@ pub(crate) fn findings(sets: &[SetCard], tasks: &[TaskOutcome]) -> Vec<Finding> 
 
 /// The table of verdicts.
 struct Verdicts<'a> {
+    /// Whether there is a claim to hold them against.
+    claimed: bool,
     sets: &'a [SetCard],
     tasks: &'a [TaskOutcome],
 }
@@ -50,6 +52,10 @@ impl<'a> Verdicts<'a> {
     fn has(&self, kind: SetKind) -> bool {
         self.sets.iter().any(|set| set.kind == kind)
     }
+    /// What to say of the claim, if there is one.
+    fn of_the_claim(&self, text: &'static str) -> &'static str {
+        if self.claimed { text } else { "" }
+    }
     /// The claim holds: a set of gyros does, no set of wheels.
     fn only_gyros(&self) -> Option<Finding> {
         let wheels_fail = |t| !self.some(t, SetKind::Wheels, Answer::WithSteering);
@@ -57,20 +63,22 @@ impl<'a> Verdicts<'a> {
             self.that(|t| wheels_fail(t) && self.some(t, SetKind::Gyros, Answer::WithSteering));
         let (all, count) = (self.asked(), tasks.len());
         let text = format!(
-            "In {count} of {all} tasks a set of gyros suffices and no set of wheels does: there the claim holds."
+            "In {count} of {all} tasks a set of gyros suffices and no set of wheels does.{}",
+            self.of_the_claim(" There the claim holds.")
         );
         let both = self.has(SetKind::Wheels) && self.has(SetKind::Gyros);
-        both.then(|| finding("where the claim holds", text, &tasks))
+        both.then(|| finding("gyros are needed", text, &tasks))
     }
     /// The claim is not needed: wheels do.
     fn wheels_suffice(&self) -> Option<Finding> {
         let tasks = self.that(|t| self.some(t, SetKind::Wheels, Answer::Yes));
         let text = format!(
-            "In {} of {} tasks a set of wheels suffices, so gyros are not needed.",
+            "In {} of {} tasks a set of wheels suffices.{}",
             tasks.len(),
-            self.asked()
+            self.asked(),
+            self.of_the_claim(" There the claim does not hold.")
         );
-        self.has(SetKind::Wheels).then(|| finding("where it does not", text, &tasks))
+        self.has(SetKind::Wheels).then(|| finding("wheels suffice", text, &tasks))
     }
     /// The claim is not enough: no gyros do either.
     fn not_even_gyros(&self) -> Option<Finding> {
@@ -79,12 +87,13 @@ impl<'a> Verdicts<'a> {
         let text = format!(
             "In {} of {} tasks no set of gyros suffices either (up to {worst:.0} N·m): the load path has \
              to be closed by a grapple, the line of action moved towards the centre of mass, or thrusters \
-             used.",
+             used.{}",
             tasks.len(),
-            self.asked()
+            self.asked(),
+            self.of_the_claim(" There the claim says too little.")
         );
         self.has(SetKind::Gyros)
-            .then(|| finding("where gyros are not enough", text, &tasks))
+            .then(|| finding("not even gyros", text, &tasks))
             .filter(|_| !tasks.is_empty())
     }
     /// Wheels that hold the momentum but cannot give the torque: a slower motion is a remedy.
@@ -327,11 +336,14 @@ mod tests {
             task("light", vec![verdict("wheels", Yes, Yes), verdict("gyros", Yes, Yes)]),
             task("heavy", vec![verdict("wheels", No, No), verdict("gyros", No, Yes)]),
         ];
-        let all = findings(&sets, &tasks);
-        let holds = text(&all, "where the claim holds").unwrap();
-        assert!(holds.text.starts_with("In 1 of 3 tasks") && holds.tasks == ["fast"]);
-        assert_eq!(text(&all, "where it does not").unwrap().tasks, ["light"]);
-        assert_eq!(text(&all, "where gyros are not enough").unwrap().tasks, ["heavy"]);
+        let all = findings("gyros are needed", &sets, &tasks);
+        let holds = text(&all, "gyros are needed").unwrap();
+        assert!(
+            holds.text.starts_with("In 1 of 3 tasks") && holds.text.ends_with("the claim holds.")
+        );
+        assert_eq!(holds.tasks, ["fast"]);
+        assert_eq!(text(&all, "wheels suffice").unwrap().tasks, ["light"]);
+        assert_eq!(text(&all, "not even gyros").unwrap().tasks, ["heavy"]);
         let torque = text(&all, "torque decides").unwrap();
         assert!(torque.tasks == ["fast"] && torque.text.contains("21.0 to 21 times"), "{torque:?}");
         assert_eq!(text(&all, "steering decides").unwrap().tasks, ["fast"]);
@@ -354,7 +366,7 @@ mod tests {
             closes: true,
         });
         let tasks = [task("fast", vec![verdict("wheels", Answer::No, Answer::Yes), one])];
-        let all = findings(&sets, &tasks);
+        let all = findings("gyros are needed", &sets, &tasks);
         let error = text(&all, "tool error decides").unwrap();
         let told = "Gyros: suffice, 0.4 to 0.4 mm (requirements hold in 1 of 1 flights).";
         assert!(error.text.contains(told) && !error.text.contains("Wheels"), "{error:?}");
@@ -364,7 +376,7 @@ mod tests {
     fn a_task_that_was_not_flown_counts_for_nothing() {
         let sets = SETS.map(|(name, kind)| set(name, kind));
         let unflown = TaskOutcome { unflown: Some("out of reach".into()), ..task("far", vec![]) };
-        let all = findings(&sets, &[unflown]);
-        assert!(text(&all, "where the claim holds").unwrap().text.starts_with("In 0 of 0"));
+        let all = findings("", &sets, &[unflown]);
+        assert!(text(&all, "gyros are needed").unwrap().text.starts_with("In 0 of 0"));
     }
 }

@@ -31,6 +31,7 @@ pub fn size(study: &Study, threads: usize, progress: &mut dyn FnMut(Progress<'_>
         tasks.push(task_outcome(study, task, &of_task));
     }
     let mission = &study.mission;
+    let claim = mission.study.as_ref().map(|s| s.claim.clone()).unwrap_or_default();
     StudyOutcome {
         study: mission.name.clone(),
         summary: mission.summary.clone(),
@@ -38,10 +39,10 @@ pub fn size(study: &Study, threads: usize, progress: &mut dyn FnMut(Progress<'_>
         text: mission.text.clone(),
         version: env!("CARGO_PKG_VERSION").into(),
         seed: mission.seed,
-        claim: mission.study.as_ref().map(|s| s.claim.clone()).unwrap_or_default(),
         flights,
         closes,
-        findings: findings(&sets, &tasks),
+        findings: findings(&claim, &sets, &tasks),
+        claim,
         sets,
         tasks,
     }

@@ -2,7 +2,7 @@
 
 use crate::hand_check::TaskFile;
 use std::path::PathBuf;
-use wrasse_document::{Complaint, Document, at};
+use wrasse_document::{Complaint, Document, Step, at, closest};
 use wrasse_mission::{Mission, read_mission};
 
 /// The sets that a mission without its own is weighed against.
@@ -51,7 +51,47 @@ pub fn read_study(path: impl Into<PathBuf>, text: &str) -> Result<Study, Vec<Com
         let message = "a mission without a table [study]".to_owned();
         return Err(vec![document.error(&[], message, "here")]);
     };
-    Ok(study_of(mission, &table, &document))
+    let axes = document.read_in_part::<Axes>().value.unwrap_or_default();
+    let complaints = complaints(&table, &axes, &document);
+    if complaints.is_empty() { Ok(study_of(mission, &table, &document)) } else { Err(complaints) }
+}
+
+/// What the table names must be there.
+fn complaints(table: &wrasse_mission::Study, axes: &Axes, document: &Document) -> Vec<Complaint> {
+    let mut complaints = vec![];
+    let rows_of = |name: &str| axes.compare.iter().find(|a| a.axis == name).map(|a| &a.row);
+    let names: Vec<&str> = axes.compare.iter().map(|a| a.axis.as_str()).collect();
+    let mut missing = |path: &[Step<'_>], what: &str, name: &str, there: &[&str]| {
+        let message = format!("there is no {what} {name:?}");
+        let help = match closest(name, there.iter().copied()) {
+            Some(near) => format!("did you mean {near:?}?"),
+            None => format!("there are: {}", there.join(", ")),
+        };
+        complaints.push(document.error(path, message, "not there").with_help(help));
+    };
+    let all = |rows: &[Row]| rows.iter().map(|row| row.name.clone()).collect::<Vec<_>>();
+    match rows_of(&table.sets).map(|rows| all(rows)) {
+        None => missing(at!["study", "sets"], "compared axis", &table.sets, &names),
+        Some(rows) if !rows.contains(&table.reference) => {
+            let rows: Vec<&str> = rows.iter().map(String::as_str).collect();
+            missing(at!["study", "reference"], "set", &table.reference, &rows);
+        }
+        Some(_) => {}
+    }
+    let tasks = table.tasks.as_ref().map(|name| (name, rows_of(name).map(|rows| all(rows))));
+    match tasks {
+        Some((name, None)) => missing(at!["study", "tasks"], "compared axis", name, &names),
+        Some((_, Some(rows))) => {
+            let rows: Vec<&str> = rows.iter().map(String::as_str).collect();
+            for (i, task) in table.closed_loop.iter().enumerate() {
+                if !rows.contains(&task.as_str()) {
+                    missing(at!["study", "closed_loop", i], "task", task, &rows);
+                }
+            }
+        }
+        None => {}
+    }
+    complaints
 }
 
 fn study_of(mission: Mission, table: &wrasse_mission::Study, document: &Document) -> Study {

@@ -1,0 +1,108 @@
+//! Studies as files: what is read, what is complained of, and that threads change nothing.
+
+use std::path::Path;
+use wrasse_study::{StudyOutcome, read_study, size};
+
+/// Half a second of a push of 20 N on the tool, with a reference and two sets.
+const SMALL: &str = r#"
+name = "small"
+vehicle = "atlas-class"
+
+[study]
+tasks = "task"
+sets = "set"
+reference = "ideal"
+closed_loop = ["pushed"]
+
+[world]
+base_attitude = "held"
+
+[control]
+arm_law = "attitude-held"
+actuators = "unlimited"
+
+[[phase]]
+name = "hold"
+hold = { duration_s = 0.5 }
+
+[[compare]]
+axis = "task"
+
+[[compare.row]]
+name = "at rest"
+
+[[compare.row]]
+name = "pushed"
+set.world.applied_wrench = [{ on = "tool", force_n = [0.0, 20.0, 0.0], from_s = 0.0, duration_s = 5.0 }]
+
+[[compare]]
+axis = "set"
+
+[[compare.row]]
+name = "ideal"
+
+[[compare.row]]
+name = "gyros"
+set.world.base_attitude = "controlled"
+set.control.actuators = "fitted"
+set.actuators.gyro_array = [{ name = "g", model = "airbus-cmg-75-75s", arrangement = "pyramid", skew_deg = 53.13 }]
+
+[[compare.row]]
+name = "thrusters"
+set.world.base_attitude = "controlled"
+set.control.actuators = "fitted"
+set.actuators.thruster_set = [{ name = "t", model = "moog-monarc-22-6", arrangement = "box", count = 24, edges_m = [1.8, 1.6, 1.6], position_m = [0, 0, 0] }]
+"#;
+
+fn sized(threads: usize) -> StudyOutcome {
+    let study = read_study("small.toml", SMALL).unwrap_or_else(|found| panic!("{found:#?}"));
+    size(&study, threads, &mut |_| {})
+}
+
+#[test]
+fn the_same_bits_come_out_for_any_number_of_threads() {
+    let told = |threads| {
+        let outcome = sized(threads);
+        let demands: Vec<_> = outcome.tasks.iter().map(|task| task.demand.clone()).collect();
+        (serde_json::to_string(&outcome).unwrap(), demands)
+    };
+    let alone = told(1);
+    assert!(alone == told(3) && alone == told(7));
+}
+
+#[test]
+fn a_study_flies_each_task_with_the_reference_and_the_named_ones_with_every_set() {
+    let outcome = sized(2);
+    assert_eq!((outcome.flights, outcome.closes), (4, true));
+    let flown = |k: usize| outcome.tasks[k].verdicts.iter().filter(|v| v.flown.is_some()).count();
+    assert_eq!((flown(0), flown(1)), (0, 3));
+    assert_eq!(outcome.tasks[0].peak_torque_nm, 0.0);
+    assert!(!outcome.tasks[1].own_motion && outcome.tasks[1].gathered_nm.is_some());
+    let thrusters = &outcome.tasks[1].verdicts[2];
+    assert!(thrusters.fuel_kg.unwrap() > 0.0 && thrusters.saturates_s.best.is_none());
+}
+
+#[test]
+fn a_mission_without_sets_gets_those_of_the_catalogue() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../missions/atlas-reach.toml");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let study = read_study(&path, &text).unwrap_or_else(|found| panic!("{found:#?}"));
+    assert_eq!((study.name(), study.flights()), ("atlas-reach", 11));
+}
+
+#[test]
+fn a_missing_axis_or_row_is_complained_of_with_its_place() {
+    let wrong = [
+        ("sets = \"set\"", "sets = \"sets\"", "sets"),
+        ("tasks = \"task\"", "tasks = \"tasks\"", "tasks"),
+        ("reference = \"ideal\"", "reference = \"idea\"", "ideal"),
+        ("closed_loop = [\"pushed\"]", "closed_loop = [\"pulled\"]", "pulled"),
+    ];
+    for (right, wrong, word) in wrong {
+        let complaints = read_study("small.toml", &SMALL.replace(right, wrong)).unwrap_err();
+        let complaint = &complaints[0];
+        assert!(complaint.span.is_some() && complaint.help.is_some(), "{complaint:?}");
+        let told = format!("{} {}", complaint.message, complaint.help.clone().unwrap_or_default());
+        assert!(told.contains(word), "{told}");
+    }
+}
