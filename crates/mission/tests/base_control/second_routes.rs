@@ -77,7 +77,7 @@ fn momentum_in_wheels_and_gyros_stands_in_the_ledger_and_the_sum_stays() {
     }
 }
 
-/// Measured: the sum of what came in is within 4.7e-13 N·m·s and 1.7e-13 N·s of what is there at the end.
+/// Measured: the sum of what came in is within 1.4e-14 N·m·s and 1.7e-13 N·s of what is there at the end.
 #[test]
 fn impulses_of_thrusters_and_from_outside_add_up_to_the_momentum_at_the_end() {
     for name in ["thrusters", "hybrid", "tank-empty"] {
