@@ -29,9 +29,11 @@ fn without_rows(text: &str, drop: impl Fn(&str) -> bool) -> String {
     for block in blocks {
         let name = block.split('"').nth(1).expect("a row has a name");
         if !drop(name) {
-            kept += &format!("[[compare.row]]\n{block}");
+            kept += "[[compare.row]]\n";
+            kept += block;
         } else if let Some((_, next)) = block.split_once("[[compare]]") {
-            kept += &format!("[[compare]]{next}");
+            kept += "[[compare]]";
+            kept += next;
         }
     }
     kept
