@@ -135,9 +135,7 @@ pub(crate) fn fly(
         last = Some(seen);
         progress(done as f64 / plan.periods as f64);
     }
-    for text in flight.limits.summary(case) {
-        flight.say(EventKind::Limit, text);
-    }
+    flight.sum_up();
     Flown {
         end,
         watch,
@@ -348,6 +346,27 @@ impl<'a> Flight<'a> {
                 let text = format!("the flight computer is told to do without {}", failure.name);
                 self.say(EventKind::Failure, text);
             }
+        }
+    }
+
+    /// Say how long limits were met, and which failures and wrenches the flight was too short for.
+    fn sum_up(&mut self) {
+        for text in self.limits.summary(self.case) {
+            self.say(EventKind::Limit, text);
+        }
+        let end = self.world.time();
+        let failures = self.case.failures.iter().zip(&self.failed).filter(|(_, failed)| !**failed);
+        let mut never: Vec<String> = failures
+            .map(|(f, _)| format!("{} was to fail at {} s: the flight ended before", f.name, f.at))
+            .collect();
+        let wrenches = self.case.wrenches.iter().filter(|wrench| wrench.from >= end);
+        never.extend(
+            wrenches.map(|w| {
+                format!("a wrench was to act from {} s on: the flight ended before", w.from)
+            }),
+        );
+        for text in never {
+            self.say(EventKind::Failure, text);
         }
     }
 

@@ -289,6 +289,13 @@ pub(crate) fn failures(
 ) -> Vec<FailureCase> {
     let groups = [&equipment.wheel_names, &equipment.gyro_names, &equipment.thruster_names];
     let names: Vec<String> = groups.into_iter().flatten().cloned().collect();
+    if file.world.base_attitude == BaseFile::Held && !file.failure.is_empty() {
+        let message =
+            "the base is held exactly: wheels, gyros and thrusters do not act, and their \
+                       failures change nothing"
+                .into();
+        r.warning(at!["failure"], message, "set world.base_attitude to \"controlled\"");
+    }
     let mut all = vec![];
     for (i, f) in file.failure.iter().enumerate() {
         let path = |key| [Step::Key("failure"), Step::Index(i), Step::Key(key)];

@@ -344,6 +344,13 @@ fn of_actuators_that_cannot_be_read_nothing_is_said_to_be_missing() {
 }
 
 #[test]
+fn failures_of_units_that_do_not_act_are_doubted() {
+    let held = changed("base_attitude = \"controlled\"", "base_attitude = \"held\"");
+    let held = held.replace("position_hold = { bandwidth_rad_s = 0.2 }\n", "");
+    assert_doubts(&held, &["the base is held exactly", "their failures change nothing"]);
+}
+
+#[test]
 fn actuators_without_a_source_are_read_with_the_catalogues() {
     let text = without("[sensors]");
     let mission = answer(&text).unwrap_or_else(|c| panic!("{}", render(&c, false)));

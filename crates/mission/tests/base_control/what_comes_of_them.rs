@@ -1,6 +1,6 @@
 //! Each mission closes its books, ends as it says, and says what happened.
 
-use crate::{FLOWN, about, case, channel, degrees, metric, said};
+use crate::{FLOWN, about, case, channel, degrees, fly, metric, said, text_of};
 use wrasse_hardware::STANDARD_GRAVITY;
 use wrasse_mission::{CaseOutcome, End, EventKind};
 
@@ -268,4 +268,18 @@ fn a_posture_that_gives_way_leaves_the_base_less_to_store_or_says_why_not() {
     let turning = case("posture-relief", "relieves, tool keeps its orientation");
     let (time, _) = said(turning, "the posture cannot relieve the base");
     assert!((time - 9.68).abs() < 0.2, "{time} s");
+}
+
+#[test]
+fn what_the_flight_was_too_short_for_is_said() {
+    let late = text_of("wheel-fails").replace("at_s = 8.0", "at_s = 8.0e3").replace(
+        "[control]",
+        "[[world.applied_wrench]]\non = \"tool\"\nforce_n = [1.0, 0.0, 0.0]\nfrom_s = 9.0e3\n\
+         duration_s = 1.0\n[control]",
+    );
+    let outcome = fly(&late);
+    let flown = &outcome.cases[0];
+    assert_eq!(said(flown, "w2 was to fail at 8000 s: the flight ended before").0, 50.0);
+    assert_eq!(said(flown, "a wrench was to act from 9000 s on: the flight ended before").0, 50.0);
+    assert!(flown.events.iter().all(|e| !e.text.contains("told to do without")));
 }
