@@ -191,7 +191,10 @@ pub(crate) fn gyro_torque(
     (at(h) - at(-h)) * (0.5 / h)
 }
 
-/// Largest element.
+/// Largest element of a vector of numbers: one that is none would pass for small.
+#[track_caller]
 pub(crate) fn size(v: Vec3<f64>) -> f64 {
-    v.to_array().into_iter().map(f64::abs).fold(0.0, f64::max)
+    let each = v.to_array();
+    assert!(each.iter().all(|x| x.is_finite()), "{v:?}");
+    each.into_iter().map(f64::abs).fold(0.0, f64::max)
 }
