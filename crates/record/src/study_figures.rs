@@ -97,8 +97,12 @@ pub(crate) fn saturation_figure(outcome: &StudyOutcome) -> String {
         });
         let points: Vec<_> = points.collect();
         if !points.is_empty() {
-            let name = format!("{}: tasks", set.name);
-            series.push(Series { name, colour: colour(k), mark: Mark::Points, points });
+            series.push(Series {
+                name: String::new(),
+                colour: colour(k),
+                mark: Mark::Points,
+                points,
+            });
         }
     }
     let figure = plot(
@@ -109,8 +113,9 @@ pub(crate) fn saturation_figure(outcome: &StudyOutcome) -> String {
     );
     let figure = figure.unwrap_or_default();
     format!(
-        "{figure}<p class=\"hint\">Curves: momentum over force times lever, for the lever of \u{201c}{}\u{201d} \
-         ({lever:.3} m), up to the force whose torque the set can give. With the best steering.</p>\n",
+        "{figure}<p class=\"hint\">Curves: momentum over torque, with {lever:.3} N·m for each newton as in \
+         \u{201c}{}\u{201d}, up to the force whose torque the set can give. Points: the tasks that end \
+         under load. With the best steering.</p>\n",
         crate::markup::escaped(&worst.name)
     )
 }

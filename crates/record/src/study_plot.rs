@@ -17,7 +17,7 @@ pub(crate) enum Mark {
     Joined,
 }
 
-/// What one name in the legend stands for.
+/// What one name in the legend stands for; without a name it is not in the legend.
 #[derive(Debug, Clone)]
 pub(crate) struct Series {
     pub(crate) name: String,
@@ -101,7 +101,8 @@ pub(crate) fn plot(title: &str, x: Axis<'_>, y: Axis<'_>, series: &[Series]) -> 
         svg += &drawn(one, &scales);
     }
     svg += "</svg>";
-    let keys = series.iter().map(|s| {
+    let named = series.iter().filter(|s| !s.name.is_empty());
+    let keys = named.map(|s| {
         let kind = if s.mark == Mark::Dashed { "dashed " } else { "" };
         format!("<span class=\"swatch asked {kind}line-{}\">{}</span> ", s.colour, escaped(&s.name))
     });

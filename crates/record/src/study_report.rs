@@ -102,7 +102,9 @@ fn demands(tasks: &[TaskOutcome]) -> String {
         row.push(figure(&short(task.duration_s)));
         row.push(figure(&short(task.peak_torque_nm)));
         row.push(number(hand.map(|h| h.torque)));
-        row.extend(task.peak_torque_by_axis_nm.map(|x| figure(&short(x))));
+        // What is round-off beside the peak is nothing.
+        let told = |x: f64| if x < 1e-9 * task.peak_torque_nm { 0.0 } else { x };
+        row.extend(task.peak_torque_by_axis_nm.map(|x| figure(&short(told(x)))));
         row.push(figure(&short(task.peak_momentum_nms)));
         row.push(number(hand.map(|h| h.momentum)));
         row.push(number(task.gathered_nm));
@@ -139,12 +141,12 @@ fn demands(tasks: &[TaskOutcome]) -> String {
         + &by_hand
 }
 
-/// Four significant digits, for tables of figures that are estimates.
+/// Three significant digits, for tables of figures that are estimates.
 pub(crate) fn short(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return significant(value);
     }
-    format!("{value:.3e}").parse().map_or_else(|_| significant(value), significant)
+    format!("{value:.2e}").parse().map_or_else(|_| significant(value), significant)
 }
 
 /// A figure with plain steering, and in brackets with the best if that is another.
@@ -309,12 +311,16 @@ fn envelopes(outcome: &StudyOutcome) -> String {
     html
 }
 
-/// The tasks that ask for most momentum: as many as there are colours.
+/// The tasks that ask for most momentum: some of the vehicle's own motions, some pushes from outside.
 fn largest_demands(outcome: &StudyOutcome) -> Vec<&TaskOutcome> {
-    let mut tasks: Vec<_> = outcome.tasks.iter().filter(|t| t.peak_momentum_nms > 0.0).collect();
-    tasks.sort_by(|a, b| b.peak_momentum_nms.total_cmp(&a.peak_momentum_nms));
-    tasks.truncate(8);
-    tasks
+    let largest = |own_motion: bool| {
+        let asks = |t: &&TaskOutcome| t.own_motion == own_motion && t.peak_momentum_nms > 0.0;
+        let mut tasks: Vec<_> = outcome.tasks.iter().filter(asks).collect();
+        tasks.sort_by(|a, b| b.peak_momentum_nms.total_cmp(&a.peak_momentum_nms));
+        tasks.truncate(4);
+        tasks
+    };
+    [largest(true), largest(false)].concat()
 }
 
 fn what_was_run(outcome: &StudyOutcome) -> String {

@@ -151,7 +151,9 @@ impl<'a> Verdicts<'a> {
             match lasting(kind) {
                 Some((low, high)) => {
                     text += &format!(
-                        " Sets of {name} that can give the torque are full after {low:.1} to {high:.0} s."
+                        " Sets of {name} that can give the torque are full after {} to {} s.",
+                        rounded(low),
+                        rounded(high)
                     );
                 }
                 None if self.has(kind) => {

@@ -61,8 +61,10 @@ const HALVINGS: usize = 40;
 pub fn judge(demand: &Demand, able: &Capability, own_motion: bool) -> Judgement {
     let demand = demand.thinned();
     let best = best_torque_load(&demand, able);
-    let leaves = leaves_at_best(&demand, able);
-    let plain = Plain::follow(&demand, able);
+    // A motion of the vehicle's own ends at rest; a push from outside may go on.
+    let lasting = if own_motion { None } else { demand.sustained() };
+    let leaves = leaves_at_best(&demand, lasting, able);
+    let plain = Plain::follow(&demand, lasting, able);
     let torque_load = Both { plain: plain.torque_load.unwrap_or(best), best };
     let stops = if able.gyros.is_empty() || able.is_unbounded() { leaves } else { plain.stops };
     let answer = |plain: bool, best: bool| match (plain, best) {
@@ -112,14 +114,15 @@ fn best_torque_load(demand: &Demand, able: &Capability) -> f64 {
     loads.fold(0.0, f64::max)
 }
 
-/// When the demand leaves the momentum envelope (s).
-fn leaves_at_best(demand: &Demand, able: &Capability) -> Option<f64> {
+/// When the demand leaves the momentum envelope (s); `lasting`: momentum gathered every second after
+/// its end (N·m·s/s).
+fn leaves_at_best(demand: &Demand, lasting: Option<Vec3<f64>>, able: &Capability) -> Option<f64> {
     if able.is_unbounded() {
         return None;
     }
     let outside = first_outside(&demand.time, &demand.momentum_B, |h| able.momentum.load(h));
     outside.or_else(|| {
-        let (rate, held) = (demand.sustained()?, *demand.momentum_B.last()?);
+        let (rate, held) = (lasting?, *demand.momentum_B.last()?);
         let over = |after: f64| able.momentum.load(held + rate * after) > 1.0;
         let mut far = 1.0;
         while !over(far) {
@@ -151,7 +154,7 @@ struct Plain {
 }
 
 impl Plain {
-    fn follow(demand: &Demand, able: &Capability) -> Self {
+    fn follow(demand: &Demand, lasting: Option<Vec3<f64>>, able: &Capability) -> Self {
         if able.gyros.is_empty() {
             return Self { torque_load: None, stops: None };
         }
@@ -159,19 +162,24 @@ impl Plain {
         let asked = path.angles.iter().zip(&demand.torque_B);
         let loads = asked.map(|(angles, torque)| load(*torque, |d| able.torque_at(angles, d)));
         let torque_load = Some(loads.fold(0.0, f64::max));
-        Self { torque_load, stops: stops(demand, able, &path) }
+        Self { torque_load, stops: stops(demand, lasting, able, &path) }
     }
 }
 
 /// When steering along a path gets no further (s), on and on for a task that ends under load.
-fn stops(demand: &Demand, able: &Capability, path: &SteeringPath) -> Option<f64> {
+fn stops(
+    demand: &Demand,
+    lasting: Option<Vec3<f64>>,
+    able: &Capability,
+    path: &SteeringPath,
+) -> Option<f64> {
     let count = path.angles.len();
     if let Some(share) = path.stopped {
         let to = demand.time[count];
         let from = count.checked_sub(1).map_or(to, |k| demand.time[k]);
         return Some(from + share * (to - from));
     }
-    let rate = demand.sustained()?;
+    let rate = lasting?;
     let angles = path.angles.last()?;
     let left = steering_reach(&able.gyros, angles, rate * (1.0 / rate.norm())).momentum;
     Some(demand.time.last()? + left / rate.norm())
@@ -196,7 +204,7 @@ fn slower_plain(demand: &Demand, able: &Capability, best: Option<f64>) -> Option
     }
     let fails = |factor: f64| {
         let slow = demand.slower(factor);
-        let plain = Plain::follow(&slow, able);
+        let plain = Plain::follow(&slow, None, able);
         plain.stops.is_some() || plain.torque_load.is_some_and(|load| load > 1.0)
     };
     if !fails(best) {

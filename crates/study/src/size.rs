@@ -153,7 +153,7 @@ fn task_outcome(study: &Study, task: &Task, flown: &[CaseOutcome]) -> TaskOutcom
         peak_torque_nm: demand.peak_torque().norm(),
         peak_torque_by_axis_nm: demand.torque_by_axis().to_array(),
         peak_momentum_nms: demand.peak_momentum().norm(),
-        gathered_nm: demand.sustained().map(Vec3::norm),
+        gathered_nm: demand.sustained().filter(|_| !own_motion).map(Vec3::norm),
         by_hand: start.by_hand(&task.file, demand.duration()),
         tool_error_mm: 1e3 * largest_tool_error(reference),
         verdicts,
