@@ -112,6 +112,13 @@ impl<T: Scalar> BaseControl<T> {
         sensed.X_NB.rotation.transpose_mul(force_N)
     }
 
+    /// Nothing is controlled for a while: nobody owes anything for it.
+    pub(crate) fn rest(&mut self) {
+        if let Some(steering) = &mut self.steering {
+            steering.rest();
+        }
+    }
+
     /// Do without a unit from now on.
     pub(crate) fn isolate(&mut self, unit: Unit) {
         if let Some(steering) = &mut self.steering {

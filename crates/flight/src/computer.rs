@@ -64,6 +64,8 @@ pub struct FlightComputer<T, const J: usize> {
     surprise: SpatialVelocity<T>,
     pub(crate) reference: ToolMotion<T>,
     pub(crate) axes: Axes,
+    /// Mean joint acceleration that was asked for over the last period (rad/s² or m/s²).
+    acceleration: [T; J],
     /// What pushes at the tool, at its origin in its axes, if that is felt.
     tool_wrench_E: Option<SpatialForce<T>>,
     /// Why the posture cannot relieve the base, if it was asked to.
@@ -102,6 +104,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
                 Vdot_NE_N: SpatialVelocity::zero(),
             },
             axes: Axes::Inertial,
+            acceleration: [T::zero(); J],
             tool_wrench_E: None,
             no_relief: None,
         }
@@ -113,7 +116,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     /// If a phase begins whose numbers describe no motion.
     pub fn step(&mut self, sensed: &Sensed<T, J>) -> Result<Command<T, J>, BadPhase<T>> {
         let period = self.setup.tuning.period;
-        let state = self.navigation.estimate(sensed, &self.motion.qddot, period);
+        let state = self.navigation.estimate(sensed, &self.acceleration, period);
         self.look(&state);
         (self.tool_wrench_E, self.no_relief) = (sensed.tool_wrench_E, None);
         let mut grip = None;
@@ -400,10 +403,14 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
             ahead.q[j] += (state.v[j] + gain * half) * tuning.period * half;
             ahead.v[j] += gain;
         }
+        self.acceleration = acceleration;
+        self.acceleration = acceleration;
         let coasting = matches!(self.path, Path::Still(Held::Nothing));
         let (mut effort, mut attitude_torque_B) = ([T::zero(); J], Vec3::zero());
         let mut steered = Steered::nothing();
-        if !coasting {
+        if coasting {
+            self.base_control.rest();
+        } else {
             let (law, robot) = (self.setup.assignment.law, &self.robot);
             effort = computed_torque(robot, law, &tuning, &ahead, &middle, &acceleration);
             let mut ahead_B = feedforward_torque(robot, self.setup.base.feedforward, &middle);

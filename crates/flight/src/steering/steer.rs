@@ -29,7 +29,8 @@ pub struct SteeringSetup<T> {
     pub gyros: GyroLaw<T>,
     /// How thrusters are pulsed.
     pub modulation: Modulation<T>,
-    /// Whether thrusters also give the wanted force; if not, they push the base where they will.
+    /// Whether a force counts that thrusters cannot give, or cannot help giving; if not, the base goes
+    /// where it is pushed.
     pub holds_position: bool,
     /// When the thrusters empty wheels and gyros; `None`: never.
     pub unloading: Option<Unloading<T>>,
@@ -172,8 +173,9 @@ impl<T: Scalar> Steering<T> {
                 ask.torque = emptying_B + missing_B;
             }
             let (p_BScm_B, thrusters) = (needs.p_BScm_B, &actuators.thrusters);
-            let holds = self.setup.holds_position;
-            let controlled = if holds { WrenchAxes::ALL } else { WrenchAxes::TORQUE };
+            // Couples, as far as there are any, even where nobody asks for force: a base that is
+            // pushed away takes the arm with it.
+            let (holds, controlled) = (self.setup.holds_position, WrenchAxes::ALL);
             let selection =
                 thruster_duties(thrusters, &self.usable_thrusters, p_BScm_B, &ask, controlled);
             missing.torque = selection.missing.torque;
