@@ -1,6 +1,6 @@
 //! The study of section 4: demands against the hand, verdicts against the envelopes.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use wrasse_study::{Answer, SetKind, SetVerdict, StudyOutcome, TaskOutcome, read_study, size};
 
@@ -146,4 +146,27 @@ fn sets_that_suffice_keep_the_tool_and_sets_that_do_not_lose_it() {
     let kinds: Vec<_> = outcome.sets.iter().map(|set| set.kind).collect();
     assert_eq!(kinds[0], SetKind::Ideal);
     assert_eq!(kinds.iter().filter(|k| **k == SetKind::Gyros).count(), 5);
+}
+
+/// The row of a task in the book: demand, then a word for each set.
+fn row(task: &TaskOutcome) -> String {
+    let word = |verdict: &SetVerdict| match (verdict.suffices, verdict.torque, verdict.momentum) {
+        (Answer::Yes, ..) => "yes",
+        (Answer::WithSteering, ..) => "steer",
+        (Answer::No, Answer::No, Answer::No) => "no TH",
+        (Answer::No, Answer::No, _) => "no T",
+        (Answer::No, ..) => "no H",
+    };
+    let (torque, momentum) = (task.peak_torque_nm, task.peak_momentum_nms);
+    let words: Vec<_> = task.verdicts[1..].iter().map(word).collect();
+    format!("| {} | {torque:.1} | {momentum:.1} | {} |", task.name, words.join(" | "))
+}
+
+#[test]
+fn the_book_tells_what_the_study_finds() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../book/src/validation/section_4.md");
+    let book = std::fs::read_to_string(page).expect("the page lies in the book");
+    let outcome = judged();
+    let missing: Vec<_> = outcome.tasks.iter().map(row).filter(|r| !book.contains(r)).collect();
+    assert!(missing.is_empty(), "the book does not say:\n{}", missing.join("\n"));
 }
