@@ -157,7 +157,9 @@ pub(crate) fn error_figure(outcome: &StudyOutcome) -> String {
         });
         let mut points: Vec<_> = points.collect();
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        Series { name: set.name.clone(), colour: colour(k), mark: Mark::Joined, points }
+        // There are more sets than colours.
+        let mark = if k < 8 { Mark::Joined } else { Mark::JoinedDashed };
+        Series { name: set.name.clone(), colour: colour(k), mark, points }
     });
     let series: Vec<_> = series.filter(|series| !series.points.is_empty()).collect();
     plot(

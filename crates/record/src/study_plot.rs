@@ -15,6 +15,8 @@ pub(crate) enum Mark {
     Points,
     /// Points joined by a line.
     Joined,
+    /// Points joined by a dashed line.
+    JoinedDashed,
 }
 
 /// What one name in the legend stands for; without a name it is not in the legend.
@@ -44,6 +46,12 @@ struct Scale {
     logarithmic: bool,
     low: f64,
     high: f64,
+}
+
+impl Mark {
+    fn is_dashed(self) -> bool {
+        matches!(self, Self::Dashed | Self::JoinedDashed)
+    }
 }
 
 impl Scale {
@@ -103,7 +111,7 @@ pub(crate) fn plot(title: &str, x: Axis<'_>, y: Axis<'_>, series: &[Series]) -> 
     svg += "</svg>";
     let named = series.iter().filter(|s| !s.name.is_empty());
     let keys = named.map(|s| {
-        let kind = if s.mark == Mark::Dashed { "dashed " } else { "" };
+        let kind = if s.mark.is_dashed() { "dashed " } else { "" };
         format!("<span class=\"swatch asked {kind}line-{}\">{}</span> ", s.colour, escaped(&s.name))
     });
     Some(format!(
@@ -168,13 +176,13 @@ fn drawn(series: &Series, scales: &[Scale; 2]) -> String {
     let mut svg = String::new();
     if series.mark != Mark::Points && places.len() > 1 {
         let text: Vec<_> = places.iter().map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
-        let dashed = if series.mark == Mark::Dashed { " dashed" } else { "" };
+        let dashed = if series.mark.is_dashed() { " dashed" } else { "" };
         svg += &format!(
             "<polyline class=\"trace line-{line}{dashed}\" points=\"{}\"/>\n",
             text.join(" ")
         );
     }
-    if matches!(series.mark, Mark::Points | Mark::Joined) {
+    if matches!(series.mark, Mark::Points | Mark::Joined | Mark::JoinedDashed) {
         for [x, y] in &places {
             svg += &format!(
                 "<circle class=\"point line-{line}\" cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3.5\"><title>{}</title></circle>",

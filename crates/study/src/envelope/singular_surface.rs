@@ -17,9 +17,9 @@ pub struct Mesh {
 }
 
 /// Longest edge of a face, as a share of the rotors' momenta together.
-const LONGEST: f64 = 0.15;
+const LONGEST: f64 = 0.2;
 /// How often a face is divided at most.
-const FINEST: u32 = 2;
+const FINEST: u32 = 3;
 
 /// All singular surfaces, the outermost first: for the direction `u` in which no torque can be given
 /// each rotor stands at `± (u - g (g·u)) / |u - g (g·u)|`, and each pattern of signs makes a surface
