@@ -53,6 +53,8 @@ pub struct Judgement {
 
 /// Slower than this is never.
 const SLOWEST: f64 = 1e4;
+/// Longer than this (s) is never.
+const LONGEST: f64 = 1e12;
 /// Halvings of the interval that holds the pace, and the time to saturation.
 const HALVINGS: usize = 40;
 
@@ -127,6 +129,10 @@ fn leaves_at_best(demand: &Demand, lasting: Option<Vec3<f64>>, able: &Capability
         let mut far = 1.0;
         while !over(far) {
             far *= 2.0;
+            // Numbers that are no numbers leave nothing.
+            if far > LONGEST {
+                return None;
+            }
         }
         Some(demand.time.last()? + boundary(0.0, far, over))
     })
