@@ -17,7 +17,7 @@ pub struct Mesh {
 }
 
 /// Longest edge of a face, as a share of the rotors' momenta together.
-const LONGEST: f64 = 0.2;
+const LONGEST: f64 = 0.11;
 /// How often a face is divided at most.
 const FINEST: u32 = 3;
 
