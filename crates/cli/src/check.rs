@@ -49,7 +49,10 @@ impl Check {
 fn findings(file: &PathBuf, text: String) -> (Vec<Complaint>, Option<String>) {
     if is_mission(file, &text) {
         return match read_mission(file, text) {
-            Ok(mission) => (vec![], Some(format!("a mission of {} case(s)", mission.case_count()))),
+            Ok(mission) => {
+                let what = format!("a mission of {} case(s)", mission.case_count());
+                (mission.remarks, Some(what))
+            }
             Err(complaints) => (complaints, None),
         };
     }

@@ -45,6 +45,9 @@ impl Run {
                 return bad();
             }
         };
+        if !mission.remarks.is_empty() {
+            complain(&mission.remarks);
+        }
         let folder = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&mission.name));
         if let Some(way) = in_the_way(&folder) {
             tell(&format!(

@@ -100,7 +100,9 @@ pub(crate) fn observe(
     let mut seen = Observation {
         dynamics,
         torque_B: match case.turning {
-            Turning::Fitted => world.turning_torque_B(),
+            Turning::Fitted if stores_momentum(case) => world.turning_torque_B(),
+            // Thrusters come in pulses: there is no torque at an instant that says anything.
+            Turning::Fitted => Vec3::from_array([f64::NAN; 3]),
             Turning::Ideal(_) => world.actuator_torque_B() + dynamics.force.base.torque,
         },
         reaction_B,
@@ -130,6 +132,12 @@ pub(crate) fn observe(
         seen.values.push(seen.dynamics.force.joints[j]);
     }
     seen
+}
+
+/// Whether the fitted equipment can take up momentum.
+fn stores_momentum(case: &Case) -> bool {
+    let actuators = &case.equipment.actuators;
+    !(actuators.wheels.is_empty() && actuators.gyros.is_empty())
 }
 
 /// Values of the quantities of wheels, gyros, thrusters and sensors, in their order; NaN where there is

@@ -97,7 +97,7 @@ fn remarks(vehicle: &VehicleCard) -> String {
     let items: Vec<_> =
         vehicle.remarks.iter().map(|r| format!("<li>{}</li>\n", escaped(r))).collect();
     format!(
-        "<details><summary>Remarks on the vehicle file ({})</summary>\n<ul>{}</ul></details>\n",
+        "<details><summary>Remarks on the files ({})</summary>\n<ul>{}</ul></details>\n",
         items.len(),
         items.concat()
     )

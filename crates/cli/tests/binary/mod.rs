@@ -71,16 +71,19 @@ pub(crate) fn at(path: &str) -> String {
     checkout(path).to_str().unwrap().to_owned()
 }
 
-/// All files of a folder of the checkout and below it with this ending, in order; never none.
+/// All files of a folder of the checkout and below it with this ending, in order; never none. The
+/// lists of hardware are neither vehicles nor missions.
 pub(crate) fn files(folder: &str, endings: &[&str]) -> Vec<PathBuf> {
     let mut found = vec![];
     let mut folders = vec![checkout(folder)];
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
-            if path.is_dir() {
+            if path.is_dir() && !path.ends_with("hardware") {
                 folders.push(path);
-            } else if path.extension().is_some_and(|e| endings.iter().any(|x| e == *x)) {
+            } else if path.is_file()
+                && path.extension().is_some_and(|e| endings.iter().any(|x| e == *x))
+            {
                 found.push(path);
             }
         }

@@ -138,6 +138,14 @@ impl<T: Scalar> Steering<T> {
         self.modulators = [Modulator::default(); THRUSTERS];
     }
 
+    /// Nothing feeds the thrusters any more: no pulse goes on, and nothing is emptied.
+    fn run_dry(&mut self) {
+        self.modulators = [Modulator::default(); THRUSTERS];
+        if let Some(unloading) = &mut self.setup.unloading {
+            unloading.active = false;
+        }
+    }
+
     /// Do without a unit from now on.
     pub fn isolate(&mut self, unit: Unit) {
         let (flags, i): (&mut [bool], usize) = match unit {
@@ -164,7 +172,10 @@ impl<T: Scalar> Steering<T> {
         self.settle(stored_B);
         let mut missing = needs.wanted;
         let mut rest_B = needs.wanted.torque;
-        if !actuators.thrusters.is_empty() {
+        let dry = actuators.tank.is_some() && readings.propellant <= T::zero();
+        if dry {
+            self.run_dry();
+        } else if !actuators.thrusters.is_empty() {
             let mut ask = needs.wanted;
             if self.stores_momentum() {
                 // No more than what turns inside can hold against: the bodies should not feel it.
