@@ -83,7 +83,8 @@ impl Gyros {
             gyro.gimbal_inertia * turned + load(gyro, angle[i], w_NB_B)
         })
     }
-    /// Set the rates for a period, each within its limit; say whose motor cannot follow.
+    /// Set the rates for a period, each within its limit; say whose motor cannot follow. What is not a
+    /// number asks for none.
     pub(crate) fn command(
         &mut self,
         wanted: &[f64; GYROS],
@@ -93,8 +94,9 @@ impl Gyros {
         cut: &mut Vec<Saturation>,
     ) {
         for (i, gyro) in self.list.iter().enumerate() {
-            self.wanted[i] = wanted[i].max(-gyro.rate_limit).min(gyro.rate_limit);
-            if self.wanted[i] != wanted[i] && !self.stuck[i] {
+            let wanted = if wanted[i].is_nan() { 0.0 } else { wanted[i] };
+            self.wanted[i] = wanted.max(-gyro.rate_limit).min(gyro.rate_limit);
+            if self.wanted[i] != wanted && !self.stuck[i] {
                 cut.push(Saturation::GimbalRate(i));
             }
         }
@@ -127,4 +129,32 @@ impl Gyros {
 /// Torque (N·m) by which the motor carries the rotor along with a base that turns: `g·(w × h s)`.
 fn load(gyro: &ControlMomentGyro<f64>, angle: f64, w_NB_B: Vec3<f64>) -> f64 {
     gyro.gimbal_axis_B.dot(w_NB_B.cross(gyro.spin_axis(angle))) * gyro.momentum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wrasse_spatial::vec3;
+
+    /// Against the largest negative rate, which a clamp makes of it; the gimbal beside it goes on.
+    #[test]
+    fn a_rate_that_is_not_a_number_is_none_and_leaves_the_other_gimbals_alone() {
+        let gyro = ControlMomentGyro {
+            gimbal_axis_B: vec3(0.0, 0.0, 1.0),
+            spin_axis_B: vec3(1.0, 0.0, 0.0),
+            momentum: 10.0,
+            rate_limit: 1.0,
+            acceleration_limit: 10.0,
+            servo_bandwidth: 50.0,
+            motor_limit: 20.0,
+            gimbal_inertia: 0.1,
+        };
+        let mut gyros = Gyros::new(&List::new(&[gyro; 2]));
+        let (mut wanted, mut cut) = ([0.0; GYROS], vec![]);
+        (wanted[0], wanted[1]) = (f64::NAN, 0.1);
+        let still = [0.0; GYROS];
+        gyros.command(&wanted, &still, &still, Vec3::zero(), &mut cut);
+        assert_eq!(gyros.wanted[..2], [0.0, 0.1]);
+        assert!(cut.is_empty(), "{cut:?}");
+    }
 }

@@ -60,7 +60,7 @@ impl Wheels {
         let speed = self.speeds(momenta, w_NB_B);
         self.each(|i, wheel| self.motor[i] - friction(wheel, speed[i]))
     }
-    /// Set the motors for a period (s), each within what it can.
+    /// Set the motors for a period (s), each within what it can. What is not a number asks for nothing.
     pub(crate) fn command(
         &mut self,
         wanted: &[f64; WHEELS],
@@ -72,9 +72,10 @@ impl Wheels {
             if self.dead[i] {
                 continue;
             }
+            let wanted = if wanted[i].is_nan() { 0.0 } else { wanted[i] };
             let rounded = match wheel.torque_step {
-                step if step > 0.0 => (wanted[i] / step).round() * step,
-                _ => wanted[i],
+                step if step > 0.0 => (wanted / step).round() * step,
+                _ => wanted,
             };
             let torque = rounded.max(-wheel.torque_limit).min(wheel.torque_limit);
             if torque != rounded {
@@ -109,4 +110,31 @@ impl Wheels {
 fn friction(wheel: &ReactionWheel<f64>, speed: f64) -> f64 {
     let whole = libm::sqrt(speed * speed + FRICTION_FADES_BELOW * FRICTION_FADES_BELOW);
     wheel.coulomb * (speed / whole) + wheel.viscous * speed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wrasse_spatial::vec3;
+
+    /// Against the largest negative torque, which a clamp makes of it; the wheel beside it goes on.
+    #[test]
+    fn a_torque_that_is_not_a_number_is_none_and_leaves_the_other_wheels_alone() {
+        let wheel = ReactionWheel {
+            axis_B: vec3(1.0, 0.0, 0.0),
+            inertia: 0.1,
+            torque_limit: 0.2,
+            speed_limit: 600.0,
+            ..Default::default()
+        };
+        for torque_step in [0.0, 0.01] {
+            let mut wheels = Wheels::new(&List::new(&[ReactionWheel { torque_step, ..wheel }; 2]));
+            let (mut wanted, mut cut) = ([0.0; WHEELS], vec![]);
+            (wanted[0], wanted[1]) = (f64::NAN, 0.1);
+            wheels.command(&wanted, &[0.0; WHEELS], 0.1, &mut cut);
+            assert_eq!(wheels.motor[0], 0.0);
+            assert!((wheels.motor[1] - 0.1).abs() < 1e-16, "{}", wheels.motor[1]);
+            assert!(cut.is_empty(), "{cut:?}");
+        }
+    }
 }
