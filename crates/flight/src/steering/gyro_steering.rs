@@ -48,6 +48,20 @@ pub struct GyroLaw<T> {
     pub null_gain: T,
 }
 
+impl<T: Scalar> GyroLaw<T> {
+    /// A time (s) at which the waves stand as they do at `time` (s), at most half a wave from zero; zero
+    /// without waves. A clock that is kept so goes on for ever, however few digits it has.
+    pub fn within_a_wave(&self, time: T) -> T {
+        let GyroSharing::GeneralizedSingularityRobust(_, waves) = self.sharing else {
+            return T::zero();
+        };
+        let (sin, cos) = (waves.frequency * time).sin_cos();
+        let within = sin.atan2(cos) / waves.frequency;
+        // Waves that stand still need no clock; one that is no number is set again.
+        if within.is_finite() { within } else { T::zero() }
+    }
+}
+
 /// Gimbal rates (rad/s) that change the gyros' momentum as wanted; the base feels the opposite.
 ///
 /// At the rate limits all are slowed together, so the direction stays. What is then left of the limits
@@ -59,7 +73,7 @@ pub struct GyroLaw<T> {
 /// | `usable` | whether each gimbal is to be turned | – |
 /// | `wanted_B` | change of the gyros' momentum against the base, base axes | N·m |
 /// | `angles` | gimbal angles | rad |
-/// | `time` | phase of the waves, on any clock that does not jump | s |
+/// | `time` | where the waves stand, on a clock that jumps by whole waves at most | s |
 ///
 /// # Source
 /// [`Bedrossian1990`](wrasse_spatial::references::Bedrossian1990) for the robust inverse,
@@ -91,9 +105,19 @@ pub fn gyro_rates<T: Scalar>(
 }
 
 /// How far the gyros are from a singularity: `det A Aᵀ` for rotors of mean momentum one (–). Zero: in
-/// some direction no gimbal can give torque.
-pub fn gyro_singularity<T: Scalar>(gyros: &[ControlMomentGyro<T>], angles: &[T; GYROS]) -> T {
-    let used = used_gyros(gyros, [true; GYROS], angles);
+/// some direction no usable gimbal can give torque.
+///
+/// # Arguments
+/// | name | meaning | unit |
+/// |---|---|---|
+/// | `usable` | whether each gimbal is to be turned | – |
+/// | `angles` | gimbal angles | rad |
+pub fn gyro_singularity<T: Scalar>(
+    gyros: &[ControlMomentGyro<T>],
+    usable: &[bool; GYROS],
+    angles: &[T; GYROS],
+) -> T {
+    let used = used_gyros(gyros, *usable, angles);
     let axes = torque_axes(gyros, used, mean_momentum(gyros, used), angles);
     determinant(&gram(&axes, &used))
 }

@@ -125,7 +125,7 @@ impl<T: Scalar> Search<'_, T> {
     fn path(&self, start: &[T; GYROS], goal: T) -> Path<T> {
         let step = self.all_momentum() / T::from_f64(f64::from(STEPS));
         let (mut angles, mut reached) = (*start, T::zero());
-        let mut clearance = gyro_singularity(self.gyros, &angles);
+        let mut clearance = gyro_singularity(self.gyros, &self.used, &angles);
         while reached < goal {
             let next = (reached + step).min(goal);
             // Twice: the second turn takes back what the first strays.
@@ -140,7 +140,7 @@ impl<T: Scalar> Search<'_, T> {
             if astray * self.mean > step * T::from_f64(0.1) {
                 return Path { reached, clearance: T::zero() };
             }
-            clearance = clearance.min(gyro_singularity(self.gyros, &angles));
+            clearance = clearance.min(gyro_singularity(self.gyros, &self.used, &angles));
             reached = next;
         }
         Path { reached, clearance }

@@ -99,7 +99,7 @@ pub struct Steering<T> {
     usable_gyros: [bool; GYROS],
     usable_thrusters: [bool; THRUSTERS],
     modulators: [Modulator<T>; THRUSTERS],
-    /// Time since the start (s): some laws shake the gimbals.
+    /// Clock of the waves by which some laws shake the gimbals (s).
     time: T,
     /// What wheels and gyros stored when they were last read (N·m·s), and the change that was
     /// due over the period (N·m·s), base axes.
@@ -209,11 +209,11 @@ impl<T: Scalar> Steering<T> {
             singularity: if actuators.gyros.is_empty() {
                 T::one()
             } else {
-                gyro_singularity(&actuators.gyros, &readings.gimbal_angle)
+                gyro_singularity(&actuators.gyros, &self.usable_gyros, &readings.gimbal_angle)
             },
             unloading: self.setup.unloading.is_some_and(|u| u.active),
         };
-        self.time += needs.period;
+        self.time = self.setup.gyros.within_a_wave(self.time + needs.period);
         steered
     }
 
