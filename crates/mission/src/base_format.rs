@@ -209,6 +209,14 @@ pub(crate) struct FailureFile {
     pub(crate) told_after_s: Option<f64>,
 }
 
+/// What the claim of a study says, where verdicts can be held against it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ClaimIs {
+    /// Wheels do not suffice, and gyros do.
+    GyrosNeeded,
+}
+
 /// What `wrasse size` makes of the cases.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -216,6 +224,9 @@ pub(crate) struct StudyFile {
     /// The claim that is examined, in a sentence.
     #[serde(default)]
     pub(crate) claim: String,
+    /// What it says, if findings are to be held against it.
+    #[serde(default)]
+    pub(crate) claim_is: Option<ClaimIs>,
     /// Name of the compared axis whose rows are tasks; the mission is the one task if there is none.
     #[serde(default)]
     pub(crate) tasks: Option<String>,

@@ -28,6 +28,7 @@ mod saturations;
 mod sensing;
 mod telemetry;
 
+pub use base_format::ClaimIs;
 pub use mission::{Mission, Study};
 pub use outcome::{
     CaseOutcome, Channel, DemandSample, End, Event, EventKind, Ledger, Metric, Outcome, PlanLine,

@@ -1,7 +1,7 @@
 //! A checked mission: ready to be planned and flown.
 
 use crate::applied_wrench::AppliedWrench;
-use crate::base_format::StudyFile;
+use crate::base_format::{ClaimIs, StudyFile};
 use crate::quantity::Quantity;
 use crate::read_base::Turning;
 use crate::requirement::Requirement;
@@ -40,6 +40,8 @@ pub struct Mission {
 pub struct Study {
     /// The claim that is examined.
     pub claim: String,
+    /// What it says, if verdicts can be held against it.
+    pub claim_is: Option<ClaimIs>,
     /// Name of the compared axis whose rows are tasks, if there is one.
     pub tasks: Option<String>,
     /// Name of the compared axis whose rows are sets of actuators.
@@ -54,6 +56,7 @@ impl Study {
     pub(crate) fn of(file: &StudyFile) -> Self {
         Self {
             claim: file.claim.clone(),
+            claim_is: file.claim_is,
             tasks: file.tasks.clone(),
             sets: file.sets.clone(),
             reference: file.reference.clone(),

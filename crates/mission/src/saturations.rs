@@ -82,7 +82,10 @@ pub(crate) fn at_limits(
         if told.wheel_torque[i].abs() >= wheel.torque_limit * NEARLY {
             met.push(Saturation::WheelTorque(i));
         }
-        if readings.wheel_speed[i].abs() >= wheel.speed_limit * NEARLY {
+        // The steering brings a wheel to its limit within a period, and no further.
+        let speed = readings.wheel_speed[i];
+        let ends = speed + told.wheel_torque[i] * case.period() / wheel.inertia;
+        if speed.abs().max(ends.abs()) >= wheel.speed_limit * NEARLY {
             met.push(Saturation::WheelSpeed(i));
         }
     }

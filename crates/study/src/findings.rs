@@ -3,28 +3,39 @@
 
 use crate::judgement::Answer;
 use crate::outcome::{Finding, Flown, SetCard, SetKind, SetVerdict, TaskOutcome};
+use wrasse_mission::ClaimIs;
 
-/// The findings, in a fixed order; what does not occur is left out.
-pub(crate) fn findings(claim: &str, sets: &[SetCard], tasks: &[TaskOutcome]) -> Vec<Finding> {
-    let all = Verdicts { claimed: !claim.is_empty(), sets, tasks };
+/// The findings, in a fixed order; what does not occur is left out, and so is everything where nothing
+/// was flown.
+pub(crate) fn findings(
+    claim: Option<ClaimIs>,
+    sets: &[SetCard],
+    tasks: &[TaskOutcome],
+) -> Vec<Finding> {
+    let all = Verdicts { claim, sets, tasks };
     let parts = [
         all.only_gyros(),
         all.wheels_suffice(),
-        all.not_even_gyros(),
+        all.neither(),
         all.torque_decides(),
         all.steering_decides(),
         all.duration_decides(),
         all.thrusters(),
         all.push_moves(),
         all.tool_error_decides(),
+        all.nothing_asked(),
     ];
-    parts.into_iter().flatten().collect()
+    parts.into_iter().flatten().filter(|finding| !finding.tasks.is_empty()).collect()
 }
+
+/// A task that asks for less torque (N·m) and momentum (N·m·s) than this asks for nothing: it is far
+/// below the friction of any bearing, and above what round-off leaves.
+const NOTHING: f64 = 1e-6;
 
 /// The table of verdicts.
 struct Verdicts<'a> {
-    /// Whether there is a claim to hold them against.
-    claimed: bool,
+    /// What the claim of the study says, if it is one that verdicts can be held against.
+    claim: Option<ClaimIs>,
     sets: &'a [SetCard],
     tasks: &'a [TaskOutcome],
 }
@@ -42,9 +53,10 @@ impl<'a> Verdicts<'a> {
     fn some(&self, task: &'a TaskOutcome, kind: SetKind, answer: Answer) -> bool {
         self.of(task, kind).any(|verdict| is_no_worse(verdict, answer))
     }
-    /// Tasks with a demand that fulfil a condition.
+    /// Tasks that were flown, ask for something, and fulfil a condition.
     fn that(&self, holds: impl Fn(&'a TaskOutcome) -> bool) -> Vec<&'a TaskOutcome> {
-        self.tasks.iter().filter(|t| t.unflown.is_none() && holds(t)).collect()
+        let counts = |t: &&TaskOutcome| t.unflown.is_none() && !asks_nothing(t);
+        self.tasks.iter().filter(counts).filter(|t| holds(t)).collect()
     }
     fn asked(&self) -> usize {
         self.that(|_| true).len()
@@ -52,20 +64,44 @@ impl<'a> Verdicts<'a> {
     fn has(&self, kind: SetKind) -> bool {
         self.sets.iter().any(|set| set.kind == kind)
     }
-    /// What to say of the claim, if there is one.
+    /// What to say of the claim that gyros are needed, if the study makes it.
     fn of_the_claim(&self, text: &'static str) -> &'static str {
-        if self.claimed { text } else { "" }
+        if self.claim == Some(ClaimIs::GyrosNeeded) { text } else { "" }
     }
-    /// The claim holds: a set of gyros does, no set of wheels.
+    /// That thrusters suffice in some of the tasks, and what the cheapest that do take at most (kg).
+    fn thrusters_too(&self, tasks: &[&'a TaskOutcome]) -> String {
+        let least = |t: &&'a TaskOutcome| {
+            let enough = self.of(t, SetKind::Thrusters).filter(|v| v.suffices == Answer::Yes);
+            enough.filter_map(|v| v.fuel_kg).reduce(f64::min)
+        };
+        let fuel: Vec<f64> = tasks.iter().filter_map(least).collect();
+        if fuel.is_empty() {
+            return String::new();
+        }
+        let most = rounded(1e3 * fuel.iter().copied().fold(0.0, f64::max));
+        format!(
+            " Thrusters suffice too in {} of them, for up to {most} g of propellant each.",
+            fuel.len()
+        )
+    }
+    /// The claim holds against wheels: a set of gyros does, no set of wheels.
     fn only_gyros(&self) -> Option<Finding> {
-        let wheels_fail = |t| !self.some(t, SetKind::Wheels, Answer::WithSteering);
-        let tasks =
-            self.that(|t| wheels_fail(t) && self.some(t, SetKind::Gyros, Answer::WithSteering));
-        let (all, count) = (self.asked(), tasks.len());
-        let text = format!(
-            "In {count} of {all} tasks a set of gyros suffices and no set of wheels does.{}",
-            self.of_the_claim(" There the claim holds.")
+        let gyros = |t, answer| self.some(t, SetKind::Gyros, answer);
+        let tasks = self.that(|t| {
+            !self.some(t, SetKind::Wheels, Answer::WithSteering) && gyros(t, Answer::WithSteering)
+        });
+        let steered = tasks.iter().filter(|t| !gyros(t, Answer::Yes)).count();
+        let mut text = format!(
+            "In {} of {} tasks a set of gyros suffices and no set of wheels does.",
+            tasks.len(),
+            self.asked()
         );
+        if steered > 0 {
+            text +=
+                &format!(" In {steered} of them only if steering passes inner singular surfaces.");
+        }
+        text += self.of_the_claim(" There the claim holds against wheels.");
+        text += &self.thrusters_too(&tasks);
         let both = self.has(SetKind::Wheels) && self.has(SetKind::Gyros);
         both.then(|| finding("gyros are needed", text, &tasks))
     }
@@ -81,25 +117,34 @@ impl<'a> Verdicts<'a> {
         self.has(SetKind::Wheels).then(|| finding("wheels suffice", text, &tasks))
     }
     /// The claim is not enough: no gyros do either.
-    fn not_even_gyros(&self) -> Option<Finding> {
-        let tasks = self.that(|t| !self.some(t, SetKind::Gyros, Answer::WithSteering));
+    fn neither(&self) -> Option<Finding> {
+        let stored = [SetKind::Wheels, SetKind::Gyros];
+        let tasks =
+            self.that(|t| stored.iter().all(|kind| !self.some(t, *kind, Answer::WithSteering)));
         let worst = tasks.iter().map(|t| t.peak_torque_nm).fold(0.0, f64::max);
-        let text = format!(
-            "In {} of {} tasks no set of gyros suffices either (up to {worst:.0} N·m): the load path has \
-             to be closed by a grapple, the line of action moved towards the centre of mass, or thrusters \
-             used.{}",
+        let mut text = format!(
+            "In {} of {} tasks no set of wheels and no set of gyros suffices (up to {worst:.0} N·m).",
             tasks.len(),
-            self.asked(),
-            self.of_the_claim(" There the claim says too little.")
+            self.asked()
         );
-        self.has(SetKind::Gyros)
-            .then(|| finding("not even gyros", text, &tasks))
-            .filter(|_| !tasks.is_empty())
+        if tasks.iter().any(|t| t.own_motion) {
+            text += " The vehicle's own motions can be done more slowly.";
+        }
+        if tasks.iter().any(|t| !t.own_motion) {
+            text += " Against what acts from outside the load path can be closed by a grapple, or the \
+                     line of action moved towards the centre of mass.";
+        }
+        text += self.of_the_claim(" There the claim says too little.");
+        text += &self.thrusters_too(&tasks);
+        self.has(SetKind::Gyros).then(|| finding("not even gyros", text, &tasks))
     }
-    /// Wheels that hold the momentum but cannot give the torque: a slower motion is a remedy.
+    /// No wheels suffice, and some hold the momentum but cannot give the torque: a slower motion is a
+    /// remedy.
     fn torque_decides(&self) -> Option<Finding> {
         let held = |v: &SetVerdict| v.momentum == Answer::Yes && v.torque == Answer::No;
-        let tasks = self.that(|t| self.of(t, SetKind::Wheels).any(held));
+        let tasks = self.that(|t| {
+            !self.some(t, SetKind::Wheels, Answer::Yes) && self.of(t, SetKind::Wheels).any(held)
+        });
         let factors = tasks.iter().flat_map(|t| self.of(t, SetKind::Wheels).filter(|v| held(v)));
         let factors: Vec<f64> = factors.filter_map(|v| v.slower.plain).collect();
         let low = factors.iter().copied().fold(f64::INFINITY, f64::min);
@@ -112,22 +157,23 @@ impl<'a> Verdicts<'a> {
             )
         };
         let text = format!(
-            "In {} of {} tasks a set of wheels can hold the momentum and lacks only the torque.{remedy}",
+            "In {} of {} tasks no set of wheels suffices, and one can hold the momentum and lacks only \
+             the torque.{remedy}",
             tasks.len(),
             self.asked()
         );
-        (!tasks.is_empty()).then(|| finding("torque decides", text, &tasks))
+        Some(finding("torque decides", text, &tasks))
     }
-    /// Gyros that suffice only if they are steered past the inner singular surfaces.
+    /// Gyros that the envelopes do not rule out, if they are steered past the inner singular surfaces.
     fn steering_decides(&self) -> Option<Finding> {
         let needs = |v: &SetVerdict| v.suffices == Answer::WithSteering;
         let tasks = self.that(|t| self.of(t, SetKind::Gyros).any(needs));
         let pairs: usize =
             tasks.iter().map(|t| self.of(t, SetKind::Gyros).filter(|v| needs(v)).count()).sum();
         let text = format!(
-            "{pairs} times a set of gyros suffices only with steering that starts from good gimbal \
-             angles, or avoids or escapes singularities: the outer surface promises more than the \
-             pseudo-inverse keeps."
+            "{pairs} times a set of gyros is not ruled out, but needs steering that starts from good \
+             gimbal angles, or avoids or escapes singularities: the demand is within the outer surface, \
+             and beyond what the pseudo-inverse reaches. Whether a law gets there, a flight shows."
         );
         (!tasks.is_empty()).then(|| finding("steering decides", text, &tasks))
     }
@@ -167,15 +213,14 @@ impl<'a> Verdicts<'a> {
     /// Thrusters: what they can do, and what it costs.
     fn thrusters(&self) -> Option<Finding> {
         let tasks = self.that(|t| self.some(t, SetKind::Thrusters, Answer::Yes));
-        let fuel = tasks.iter().flat_map(|t| self.of(t, SetKind::Thrusters));
-        let fuel: Vec<f64> = fuel.filter_map(|v| v.fuel_kg).collect();
-        let most = fuel.iter().copied().fold(0.0, f64::max);
+        let enough = tasks.iter().flat_map(|t| self.of(t, SetKind::Thrusters));
+        let fuel = enough.filter(|v| v.suffices == Answer::Yes).filter_map(|v| v.fuel_kg);
+        let most = rounded(1e3 * fuel.fold(0.0, f64::max));
         let text = format!(
-            "In {} of {} tasks a set of thrusters can give the torque, for up to {:.0} g of propellant a \
+            "In {} of {} tasks a set of thrusters can give the torque, for up to {most} g of propellant a \
              time; momentum leaves with the exhaust, so nothing saturates.",
             tasks.len(),
-            self.asked(),
-            1e3 * most
+            self.asked()
         );
         self.has(SetKind::Thrusters).then(|| finding("thrusters", text, &tasks))
     }
@@ -222,6 +267,22 @@ impl<'a> Verdicts<'a> {
         );
         (!told.is_empty()).then(|| finding("tool error decides", text, &flown))
     }
+    /// Tasks that ask the base for nothing: every set suffices, which says nothing of the sets.
+    fn nothing_asked(&self) -> Option<Finding> {
+        let flown = self.tasks.iter().filter(|t| t.unflown.is_none());
+        let tasks: Vec<_> = flown.filter(|t| asks_nothing(t)).collect();
+        let text = format!(
+            "{} of {} tasks ask the base for no torque and no momentum. They say nothing of the sets and \
+             are not counted above.",
+            tasks.len(),
+            self.tasks.len()
+        );
+        Some(finding("nothing asked", text, &tasks))
+    }
+}
+
+fn asks_nothing(task: &TaskOutcome) -> bool {
+    task.peak_torque_nm < NOTHING && task.peak_momentum_nms < NOTHING
 }
 
 fn name(kind: SetKind) -> &'static str {
@@ -338,11 +399,10 @@ mod tests {
             task("light", vec![verdict("wheels", Yes, Yes), verdict("gyros", Yes, Yes)]),
             task("heavy", vec![verdict("wheels", No, No), verdict("gyros", No, Yes)]),
         ];
-        let all = findings("gyros are needed", &sets, &tasks);
+        let all = findings(Some(ClaimIs::GyrosNeeded), &sets, &tasks);
         let holds = text(&all, "gyros are needed").unwrap();
-        assert!(
-            holds.text.starts_with("In 1 of 3 tasks") && holds.text.ends_with("the claim holds.")
-        );
+        assert!(holds.text.starts_with("In 1 of 3 tasks"), "{}", holds.text);
+        assert!(holds.text.ends_with("There the claim holds against wheels."), "{}", holds.text);
         assert_eq!(holds.tasks, ["fast"]);
         assert_eq!(text(&all, "wheels suffice").unwrap().tasks, ["light"]);
         assert_eq!(text(&all, "not even gyros").unwrap().tasks, ["heavy"]);
@@ -368,17 +428,89 @@ mod tests {
             closes: true,
         });
         let tasks = [task("fast", vec![verdict("wheels", Answer::No, Answer::Yes), one])];
-        let all = findings("gyros are needed", &sets, &tasks);
+        let all = findings(Some(ClaimIs::GyrosNeeded), &sets, &tasks);
         let error = text(&all, "tool error decides").unwrap();
         let told = "Gyros: suffice, 0.4 to 0.4 mm (requirements hold in 1 of 1 flights).";
         assert!(error.text.contains(told) && !error.text.contains("Wheels"), "{error:?}");
     }
 
     #[test]
-    fn a_task_that_was_not_flown_counts_for_nothing() {
+    fn where_nothing_was_flown_nothing_is_found() {
         let sets = SETS.map(|(name, kind)| set(name, kind));
         let unflown = TaskOutcome { unflown: Some("out of reach".into()), ..task("far", vec![]) };
-        let all = findings("", &sets, &[unflown]);
-        assert!(text(&all, "gyros are needed").unwrap().text.starts_with("In 0 of 0"));
+        assert_eq!(findings(Some(ClaimIs::GyrosNeeded), &sets, &[unflown]), []);
+        assert_eq!(findings(None, &sets, &[]), []);
+    }
+
+    /// "Wheels suffice." would be told the opposite of what is found.
+    #[test]
+    fn a_claim_of_another_kind_is_not_judged() {
+        use Answer::{No, Yes};
+        let sets = SETS.map(|(name, kind)| set(name, kind));
+        let tasks = [
+            task("fast", vec![verdict("wheels", No, Yes), verdict("gyros", Yes, Yes)]),
+            task("light", vec![verdict("wheels", Yes, Yes), verdict("gyros", Yes, Yes)]),
+            task("heavy", vec![verdict("wheels", No, No), verdict("gyros", No, Yes)]),
+        ];
+        let judging = |claim| {
+            let all = findings(claim, &sets, &tasks);
+            all.iter().filter(|finding| finding.text.contains("claim")).count()
+        };
+        assert_eq!((judging(None), judging(Some(ClaimIs::GyrosNeeded))), (0, 3));
+    }
+
+    #[test]
+    fn thrusters_are_named_where_they_suffice_too() {
+        use Answer::{No, Yes};
+        let sets = [SETS[0], SETS[1], ("small", SetKind::Thrusters), ("large", SetKind::Thrusters)];
+        let sets = sets.map(|(name, kind)| set(name, kind));
+        let jets = |name: &str, torque, fuel| SetVerdict {
+            fuel_kg: Some(fuel),
+            ..verdict(name, torque, Yes)
+        };
+        let with = |small, large| {
+            vec![verdict("wheels", No, Yes), verdict("gyros", Yes, Yes), small, large]
+        };
+        let tasks = [
+            task("fast", with(jets("small", No, 0.9), jets("large", Yes, 0.3))),
+            task("slow", with(jets("small", Yes, 0.2), jets("large", Yes, 0.4))),
+            task("wild", with(jets("small", No, 0.9), jets("large", No, 0.9))),
+        ];
+        let all = findings(None, &sets, &tasks);
+        let told = &text(&all, "gyros are needed").unwrap().text;
+        assert!(told.starts_with("In 3 of 3 tasks"), "{told}");
+        assert!(told.contains("Thrusters suffice too in 2 of them, for up to 300 g"), "{told}");
+        // Of those that suffice only.
+        let told = &text(&all, "thrusters").unwrap().text;
+        assert!(told.contains("for up to 400 g"), "{told}");
+    }
+
+    /// A larger set suffices: that a smaller one lacks the torque decides nothing.
+    #[test]
+    fn torque_decides_only_where_no_wheels_suffice() {
+        use Answer::{No, Yes};
+        let sets = [("small", SetKind::Wheels), ("large", SetKind::Wheels)];
+        let sets = sets.map(|(name, kind)| set(name, kind));
+        let of =
+            |large| task("light", vec![verdict("small", No, Yes), verdict("large", large, Yes)]);
+        assert_eq!(text(&findings(None, &sets, &[of(Yes)]), "torque decides"), None);
+        assert_eq!(
+            text(&findings(None, &sets, &[of(No)]), "torque decides").unwrap().tasks,
+            ["light"]
+        );
+    }
+
+    #[test]
+    fn a_task_that_asks_for_nothing_is_said_to_and_not_counted() {
+        let sets = SETS.map(|(name, kind)| set(name, kind));
+        let all_yes =
+            || SETS.map(|(name, _)| verdict(name, Answer::Yes, Answer::Yes)).into_iter().collect();
+        let idle =
+            TaskOutcome { peak_torque_nm: 0.0, peak_momentum_nms: 0.0, ..task("idle", all_yes()) };
+        let all = findings(None, &sets, &[idle, task("light", all_yes())]);
+        let told = text(&all, "nothing asked").unwrap();
+        assert!(told.text.starts_with("1 of 2 tasks") && told.tasks == ["idle"], "{told:?}");
+        assert_eq!(text(&all, "wheels suffice").unwrap().tasks, ["light"]);
+        assert!(text(&all, "wheels suffice").unwrap().text.starts_with("In 1 of 1"));
     }
 }

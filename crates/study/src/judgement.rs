@@ -12,7 +12,8 @@ use wrasse_spatial::Vec3;
 pub enum Answer {
     /// It does.
     Yes,
-    /// Only with steering that starts from good gimbal angles, or avoids or escapes singularities.
+    /// Not ruled out, but needs steering that starts from good gimbal angles, or avoids or escapes
+    /// singularities.
     WithSteering,
     /// It does not, whatever steers it.
     No,

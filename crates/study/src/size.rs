@@ -31,7 +31,9 @@ pub fn size(study: &Study, threads: usize, progress: &mut dyn FnMut(Progress<'_>
         tasks.push(task_outcome(study, task, &of_task));
     }
     let mission = &study.mission;
-    let claim = mission.study.as_ref().map(|s| s.claim.clone()).unwrap_or_default();
+    let table = mission.study.as_ref();
+    let claim = table.map(|table| table.claim.clone()).unwrap_or_default();
+    let claim_is = table.and_then(|table| table.claim_is);
     StudyOutcome {
         study: mission.name.clone(),
         summary: mission.summary.clone(),
@@ -41,7 +43,7 @@ pub fn size(study: &Study, threads: usize, progress: &mut dyn FnMut(Progress<'_>
         seed: mission.seed,
         flights,
         closes,
-        findings: findings(&claim, &sets, &tasks),
+        findings: findings(claim_is, &sets, &tasks),
         claim,
         sets,
         tasks,

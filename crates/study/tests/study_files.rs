@@ -106,3 +106,12 @@ fn a_missing_axis_or_row_is_complained_of_with_its_place() {
         assert!(told.contains(word), "{told}");
     }
 }
+
+#[test]
+fn a_claim_of_an_unknown_kind_is_complained_of() {
+    let with = |kind: &str| SMALL.replace("[study]", &format!("[study]\nclaim_is = {kind:?}"));
+    let complaints = read_study("small.toml", &with("wheels-needed")).unwrap_err();
+    let told = format!("{complaints:?}");
+    assert!(told.contains("gyros-needed") && complaints[0].span.is_some(), "{told}");
+    assert!(read_study("small.toml", &with("gyros-needed")).is_ok());
+}
