@@ -100,7 +100,7 @@ fn wheel_allocation_allocates_nothing() {
         let law = WheelLaw { sharing, null_gain: 0.1 };
         let wanted = vec3(0.1, -0.2, 0.3);
         let calls = allocations(|| {
-            black_box(wheel_torques(&wheels, &[true; WHEELS], &law, wanted, &speeds));
+            black_box(wheel_torques(&wheels, &[true; WHEELS], &law, wanted, &speeds, 0.01));
         });
         assert_eq!(calls, 0, "{sharing:?}");
     }

@@ -265,7 +265,8 @@ impl<T: Scalar> Steering<T> {
         }
         if !wheels.is_empty() {
             let (usable, speeds) = (&self.usable_wheels, &readings.wheel_speed);
-            let found = wheel_torques(wheels, usable, &setup.wheels, left_B, speeds);
+            let (law, period) = (&setup.wheels, needs.period);
+            let found = wheel_torques(wheels, usable, law, left_B, speeds, period);
             (torques, left_B) = (found.values, found.missing_B);
         }
         (torques, rates, -left_B)

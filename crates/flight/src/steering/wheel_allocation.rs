@@ -27,8 +27,8 @@ pub struct WheelLaw<T> {
 
 /// Motor torques (N·m) whose sum on the wheels is what is wanted; the base feels the opposite.
 ///
-/// The sum keeps its direction when limits cut it. A wheel at its speed limit is not driven on: the
-/// others take over. What is then left of the limits evens out the speeds, with no torque in sum.
+/// The sum keeps its direction when limits cut it. No wheel is driven beyond its speed limit within the
+/// period: the others take over. What is then left of the limits evens out the speeds, with no torque in sum.
 ///
 /// # Arguments
 /// | name | meaning | unit |
@@ -36,6 +36,7 @@ pub struct WheelLaw<T> {
 /// | `usable` | whether each wheel is to be used | – |
 /// | `wanted_B` | change of the wheels' momentum, base axes | N·m |
 /// | `speeds` | speed of each wheel against the base | rad/s |
+/// | `period` | control period over which the torques act | s |
 ///
 /// # Source
 /// [`Wie2008`](wrasse_spatial::references::Wie2008) ch. 7 for the pseudo-inverse;
@@ -46,6 +47,7 @@ pub fn wheel_torques<T: Scalar>(
     law: &WheelLaw<T>,
     wanted_B: Vec3<T>,
     speeds: &[T; WHEELS],
+    period: T,
 ) -> Allocation<T, WHEELS> {
     let wheel = |k: usize| wheels.get(k).copied().unwrap_or_default();
     let finite = all_finite(&wanted_B.to_array());
@@ -53,12 +55,11 @@ pub fn wheel_torques<T: Scalar>(
         core::array::from_fn(|k| usable[k] && finite && speeds[k].is_finite() && able(&wheel(k)));
     // All is counted in shares of each wheel's torque limit.
     let axes = core::array::from_fn(|k| wheel(k).axis_B * wheel(k).torque_limit);
-    let shares = shares_within_speed(wheels, &axes, used, law.sharing, wanted_B, speeds);
-    let peak = shares.iter().fold(T::one(), |peak, x| peak.max(x.abs()));
-    let shares = shares.map(|x| x / peak);
+    let bounds = share_bounds(wheels, speeds, period);
+    let shares = shares_within_speed(&axes, used, law.sharing, wanted_B, &bounds);
 
     let evening = evening_shares(wheels, used, law, speeds);
-    let [lower, upper] = share_bounds(wheels, speeds);
+    let [lower, upper] = bounds;
     let part = share_that_fits(&shares, &evening, &lower, &upper);
     let values = core::array::from_fn(|k| {
         // Round-off must not push a bound.
@@ -89,44 +90,71 @@ impl WheelSharing {
     }
 }
 
-/// Shares that give what is wanted without driving on a wheel at its speed limit: the one that would
-/// be driven hardest is left out, and the others share again.
+/// Shares within bounds that give what is wanted, or the part of it that the torque limits let through.
+/// Of the wheels that would pass their speed limits, the one that would pass it by most is held to what
+/// it may give, and the others share what is left.
 fn shares_within_speed<T: Scalar>(
-    wheels: &[ReactionWheel<T>],
     axes: &[Vec3<T>; WHEELS],
     used: [bool; WHEELS],
     sharing: WheelSharing,
     wanted: Vec3<T>,
-    speeds: &[T; WHEELS],
+    [lower, upper]: &[[T; WHEELS]; 2],
 ) -> [T; WHEELS] {
-    let (mut used, [lower, upper]) = (used, share_bounds(wheels, speeds));
+    let (mut free, mut held) = (used, [T::zero(); WHEELS]);
+    // The torque limits first: beyond them any wheel would pass its speed limit, too.
+    let mut shares = sharing.solve(axes, used, wanted);
+    let wanted = wanted * (T::one() / peak(&shares));
+    shares = cut(shares);
     loop {
-        let shares = sharing.solve(axes, used, wanted);
-        let (mut worst, mut driven_on) = (T::zero(), None);
-        for k in (0..WHEELS).filter(|&k| used[k]) {
-            // At its limit a wheel has a bound of zero on one side.
+        let (mut most, mut passing) = (T::zero(), None);
+        for k in (0..WHEELS).filter(|&k| free[k]) {
+            let within = shares[k].min(upper[k]).max(lower[k]);
             let bound = if shares[k] > T::zero() { upper[k] } else { lower[k] };
-            if bound == T::zero() && shares[k].abs() > worst {
-                (worst, driven_on) = (shares[k].abs(), Some(k));
+            let beyond = (shares[k] - within).abs();
+            // What is beyond the torque limit is cut for all alike.
+            if bound.abs() < T::one() && beyond > most {
+                (most, passing) = (beyond, Some((k, within)));
             }
         }
-        match driven_on {
-            Some(k) => used[k] = false,
-            None => return shares,
+        let Some((k, within)) = passing else { return cut(shares) };
+        (free[k], held[k]) = (false, within);
+        shares = sharing.solve(axes, free, wanted - sum(axes, &held));
+        for k in 0..WHEELS {
+            shares[k] += held[k];
         }
     }
 }
 
-/// Bounds of each wheel's share: the torque limit, but none towards a speed beyond the limit.
-fn share_bounds<T: Scalar>(wheels: &[ReactionWheel<T>], speeds: &[T; WHEELS]) -> [[T; WHEELS]; 2] {
+/// The largest share, at least one.
+fn peak<T: Scalar>(shares: &[T; WHEELS]) -> T {
+    shares.iter().fold(T::one(), |peak, x| peak.max(x.abs()))
+}
+
+/// All divided by the largest, if that is above one.
+fn cut<T: Scalar>(shares: [T; WHEELS]) -> [T; WHEELS] {
+    let peak = peak(&shares);
+    shares.map(|x| x / peak)
+}
+
+/// Bounds of each wheel's share: the torque limit, and what brings it to its speed limit over a
+/// period (s); none towards a speed beyond.
+fn share_bounds<T: Scalar>(
+    wheels: &[ReactionWheel<T>],
+    speeds: &[T; WHEELS],
+    period: T,
+) -> [[T; WHEELS]; 2] {
     let mut bounds = [[-T::one(); WHEELS], [T::one(); WHEELS]];
     for (k, wheel) in wheels.iter().enumerate().take(WHEELS) {
-        if speeds[k] <= -wheel.speed_limit {
-            bounds[0][k] = T::zero();
-        }
-        if speeds[k] >= wheel.speed_limit {
-            bounds[1][k] = T::zero();
-        }
+        let share = |room: T| {
+            if room <= T::zero() {
+                return T::zero();
+            }
+            let share = room * wheel.inertia / (wheel.torque_limit * period);
+            // Written so that what is no number bounds nothing.
+            if share < T::one() { share.max(T::zero()) } else { T::one() }
+        };
+        bounds[0][k] = -share(wheel.speed_limit + speeds[k]);
+        bounds[1][k] = share(wheel.speed_limit - speeds[k]);
     }
     bounds
 }
