@@ -10,6 +10,7 @@ mod flights;
 mod hand_check;
 mod judgement;
 mod outcome;
+mod own_units;
 mod size;
 mod study;
 

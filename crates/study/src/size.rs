@@ -236,6 +236,14 @@ fn metric(case: &CaseOutcome, name: &str) -> Option<f64> {
     case.metrics.iter().find(|m: &&Metric| m.name == name).map(|m| m.value)
 }
 
+/// Whether the requirements hold. One without a value in a flight that came to its end is on units that
+/// the set lacks: it does not apply.
+fn requirements_hold(case: &CaseOutcome) -> bool {
+    let completed = matches!(case.end, End::Completed);
+    let holds = |v: &wrasse_mission::Verdict| v.pass || (completed && v.value.is_none());
+    case.verdicts.iter().all(holds)
+}
+
 fn flown_with(case: &CaseOutcome) -> Flown {
     let limit = case.events.iter().find(|event| event.kind == EventKind::Limit);
     let turns = case.demand.iter().map(|sample| sample.base_turn);
@@ -244,7 +252,7 @@ fn flown_with(case: &CaseOutcome) -> Flown {
         tool_error_at_end_mm: 1e3 * case.demand.last().map_or(0.0, |sample| sample.tool_error),
         attitude_error_deg: turns.fold(0.0, f64::max).to_degrees(),
         propellant_kg: metric(case, "thrusters.propellant_used.final").filter(|kg| *kg > 0.0),
-        requirements_hold: case.verdicts.iter().all(|verdict| verdict.pass),
+        requirements_hold: requirements_hold(case),
         ended: ended(case),
         limit: limit.map(|event| event.text.clone()),
         closes: case.ledger.closes,

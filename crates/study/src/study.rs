@@ -1,6 +1,7 @@
 //! A study: a mission file whose cases are tasks and sets of actuators.
 
 use crate::hand_check::TaskFile;
+use crate::own_units::without_own_units;
 use std::path::PathBuf;
 use wrasse_document::{Complaint, Document, Step, at, closest};
 use wrasse_mission::{Mission, read_mission};
@@ -42,7 +43,7 @@ pub fn read_study(path: impl Into<PathBuf>, text: &str) -> Result<Study, Vec<Com
     let mut mission = read_mission(path.clone(), text)?;
     let mut whole = text.to_owned();
     if mission.study.is_none() {
-        whole = format!("{text}\n{SETS}");
+        whole = format!("{}\n{SETS}", without_own_units(text));
         mission = read_mission(path.clone(), whole.as_str())?;
         text.clone_into(&mut mission.text);
     }

@@ -115,3 +115,43 @@ fn a_claim_of_an_unknown_kind_is_complained_of() {
     assert!(told.contains("gyros-needed") && complaints[0].span.is_some(), "{told}");
     assert!(read_study("small.toml", &with("gyros-needed")).is_ok());
 }
+
+/// A mission's own failures, and what only its own units can do, are not asked of the sets.
+#[test]
+fn every_shipped_mission_can_be_sized() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../missions");
+    let folders = [root.clone(), root.join("base-control"), root.join("miss-distance")];
+    let files = folders.iter().flat_map(|folder| std::fs::read_dir(folder).unwrap());
+    let mut paths: Vec<_> = files.map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    paths.sort();
+    assert!(paths.len() > 15, "{paths:?}");
+    let mut refused = vec![];
+    for path in &paths {
+        let text = std::fs::read_to_string(path).unwrap();
+        if let Err(complaints) = read_study(path, &text) {
+            let told: Vec<_> = complaints.iter().map(|c| c.message.clone()).collect();
+            let name = path.file_name().unwrap().to_string_lossy().into_owned();
+            refused.push(format!("{name}: {}", told.join("; ")));
+        }
+    }
+    // The reference holds the base exactly, which takes a base at rest.
+    assert_eq!(refused, ["coast.toml: a base that turns at the start cannot be held"]);
+}
+
+/// Requirements on wheels say nothing of a set without wheels, and so do not fail it.
+#[test]
+fn a_requirement_on_units_that_a_set_lacks_does_not_count_against_it() {
+    let asked = "vehicle = \"atlas-class\"\nrequirements = [\"wheels.speed_use.max <= 100 %\"]";
+    let text = SMALL.replace("vehicle = \"atlas-class\"", asked);
+    let study = read_study("small.toml", &text).unwrap_or_else(|found| panic!("{found:#?}"));
+    let outcome = size(&study, 2, &mut |_| {});
+    let hold =
+        outcome.tasks[1].verdicts.iter().map(|v| v.flown.as_ref().unwrap().requirements_hold);
+    assert_eq!(hold.collect::<Vec<_>>(), [true; 3]);
+    // One that has a value still counts.
+    let text = text.replace("wheels.speed_use.max <= 100 %", "tool.position_error.max < 0 mm");
+    let study = read_study("small.toml", &text).unwrap_or_else(|found| panic!("{found:#?}"));
+    let outcome = size(&study, 2, &mut |_| {});
+    assert!(outcome.tasks[1].verdicts.iter().all(|v| !v.flown.as_ref().unwrap().requirements_hold));
+}
