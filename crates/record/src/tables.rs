@@ -1,6 +1,6 @@
 //! The verdicts as plain text, for the terminal.
 
-use wrasse_mission::{CaseOutcome, End, EventKind, Ledger, Outcome, Verdict};
+use wrasse_mission::{CaseOutcome, End, Event, EventKind, Ledger, Outcome, Verdict};
 
 use crate::comparison::{Comparison, case_name, comparison, judged, reason};
 use crate::ledger_rests::{Rest, ledger_rests};
@@ -46,10 +46,15 @@ fn was_flown(case: &CaseOutcome) -> bool {
 /// Most limits that are told one by one.
 const LIMITS: usize = 12;
 
+/// Limits that were reached or passed, and units that failed.
+fn limits(case: &CaseOutcome) -> Vec<&Event> {
+    let told = |kind| matches!(kind, EventKind::Limit | EventKind::Failure);
+    case.events.iter().filter(|event| told(event.kind)).collect()
+}
+
 /// Limits that were reached or passed and units that failed, a line each.
 fn limits_reached(case: &CaseOutcome) -> String {
-    let told = |kind| matches!(kind, EventKind::Limit | EventKind::Failure);
-    let limits: Vec<_> = case.events.iter().filter(|e| told(e.kind)).collect();
+    let limits = limits(case);
     let lines = limits
         .iter()
         .take(LIMITS)
@@ -57,6 +62,26 @@ fn limits_reached(case: &CaseOutcome) -> String {
     let mut text: String = lines.collect();
     if limits.len() > LIMITS {
         text += &format!("and {} more: see the report\n", limits.len() - LIMITS);
+    }
+    if text.is_empty() { text } else { format!("\n{text}") }
+}
+
+/// The first limit or failure of each case that has any, a line each.
+fn limits_of_cases(cases: &[CaseOutcome]) -> String {
+    let lines = cases.iter().filter_map(|case| {
+        let limits = limits(case);
+        let first = limits.first()?;
+        let rest = match limits.len() {
+            1 => String::new(),
+            all => format!("; and {} more: see the report", all - 1),
+        };
+        let time = significant(first.time_s);
+        Some(printable(&format!("{}: at {time} s: {}{rest}", case_name(case), first.text)) + "\n")
+    });
+    let lines: Vec<String> = lines.collect();
+    let mut text = lines.iter().take(LIMITS).map(String::as_str).collect::<String>();
+    if lines.len() > LIMITS {
+        text += &format!("and limits in {} more cases: see the report\n", lines.len() - LIMITS);
     }
     if text.is_empty() { text } else { format!("\n{text}") }
 }
@@ -105,6 +130,7 @@ fn compared(outcome: &Outcome, cases: &[CaseOutcome]) -> String {
             text.push('\n');
         }
     }
+    text += &limits_of_cases(cases);
     if let Some(worst) = worst_ledger(cases) {
         let whose = format!(" (worst of the cases: {})", printable(&case_name(worst)));
         text += "\n";
@@ -165,7 +191,7 @@ fn worst_ledger(cases: &[CaseOutcome]) -> Option<&CaseOutcome> {
 }
 
 /// What to try when the ledger does not close.
-const OPEN: &str = "          an open ledger fails the run; a smaller world.step_s closes it if the \
+pub(crate) const OPEN: &str = "          an open ledger fails the run; a smaller world.step_s closes it if the \
                     integration is the reason\n";
 
 /// One line for momentum and one for energy.

@@ -63,3 +63,30 @@ fn a_limit_that_was_reached_is_told_between_verdicts_and_ledger() {
     let told = table.find("\nat 7.25 s: attitude actuator full: 25 N·m·s about z\n");
     assert!(told.expect("it is told") < table.find("momentum  ledger").expect("the ledger"));
 }
+
+#[test]
+fn each_of_several_cases_tells_its_first_limit_and_how_many_there_are_more() {
+    let mut outcome = sample::compared();
+    let event = |time_s, kind, text: &str| Event { time_s, kind, text: text.into() };
+    outcome.cases[1].events.push(event(7.25, EventKind::Failure, "wheel x fails"));
+    outcome.cases[1].events.push(event(8.0, EventKind::Limit, "wheel y full"));
+    outcome.cases[1].events.push(event(9.0, EventKind::Limit, "wheel z full"));
+    outcome.cases[4].events.push(event(2.0, EventKind::Limit, "wheel y full"));
+    let table = verdict_table(&outcome);
+    let told = "\nlaw=terrestrial, load=200 kg: at 7.25 s: wheel x fails; and 2 more: see the report\n\
+                law=attitude-held, load=200 kg: at 2 s: wheel y full\n\nmomentum  ledger";
+    assert!(table.contains(told), "{table}");
+}
+
+#[test]
+fn the_limits_of_many_cases_take_at_most_twelve_lines() {
+    let mut outcome = sample::compared();
+    outcome.cases.extend(outcome.cases.clone());
+    for case in &mut outcome.cases {
+        let text = "wheel y full".into();
+        case.events.push(Event { time_s: 2.0, kind: EventKind::Limit, text });
+    }
+    let table = verdict_table(&outcome);
+    assert_eq!(table.matches(": at 2 s: wheel y full\n").count(), 12, "{table}");
+    assert!(table.contains("\nand limits in 6 more cases: see the report\n"), "{table}");
+}
