@@ -29,6 +29,30 @@ pub(crate) fn power(value: f64) -> String {
     if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
 }
 
+/// Three significant digits, for figures that are estimates.
+pub(crate) fn rounded(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return significant(value);
+    }
+    format!("{value:.2e}").parse().map_or_else(|_| significant(value), significant)
+}
+
+/// Zero for what is round-off beside the largest figure of its row.
+pub(crate) fn beside_largest(value: f64, largest: f64) -> f64 {
+    if value.abs() < 1e-9 * largest { 0.0 } else { value }
+}
+
+/// A factor by which something must be slower, rounded up so that it still suffices.
+pub(crate) fn pace(factor: f64) -> String {
+    format!("{:.1}", libm::ceil(10.0 * factor - 1e-6) / 10.0)
+}
+
+/// A count and what is counted: `1 task`, `2 tasks`.
+pub(crate) fn counted(count: usize, what: &str) -> String {
+    let ending = if count == 1 { "" } else { "s" };
+    format!("{count} {what}{ending}")
+}
+
 /// Without the zeros that end a decimal fraction.
 fn trimmed(number: &str) -> &str {
     if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
@@ -57,6 +81,30 @@ mod tests {
         for (value, text) in cases {
             assert_eq!(significant(value), text);
         }
+    }
+
+    #[test]
+    fn a_pace_is_rounded_to_the_slower_side() {
+        assert_eq!([1.0, 1.01, 4.1, 9.96, 17.02].map(pace), ["1.0", "1.1", "4.1", "10.0", "17.1"]);
+    }
+
+    #[test]
+    fn estimates_have_three_digits() {
+        assert_eq!(
+            [92.4567, 0.0, 12345.0, 0.000_123_45].map(rounded),
+            ["92.5", "0", "12300", "1.23e-4"]
+        );
+    }
+
+    #[test]
+    fn round_off_beside_a_large_figure_is_nothing() {
+        assert_eq!([1.77e-14, -1e-8, 0.1].map(|x| beside_largest(x, 350.0)), [0.0, 0.0, 0.1]);
+        assert_eq!(beside_largest(1.77e-14, 0.0), 1.77e-14);
+    }
+
+    #[test]
+    fn one_of_a_kind_is_counted_as_one() {
+        assert_eq!([0, 1, 2].map(|n| counted(n, "task")), ["0 tasks", "1 task", "2 tasks"]);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use wrasse_study::{Answer, Both, SetCard, SetKind, SetVerdict, StudyOutcome, TaskOutcome};
 
 use crate::markup::{escaped, figure, table, words};
-use crate::numbers::significant;
+use crate::numbers::{beside_largest, counted, rounded as short};
 use crate::study_envelope::{MomentumPath, envelope_figure};
 use crate::study_figures::{error_figure, saturation_figure, task_figures};
 
@@ -58,16 +58,17 @@ fn header(outcome: &StudyOutcome) -> String {
     let ledgers = if outcome.closes {
         "<span class=\"pass\">\u{2713} all ledgers close</span>"
     } else {
-        "<span class=\"fail\">\u{2717} a ledger stays open</span>"
+        "<span class=\"fail\">\u{2717} a ledger stays open</span> A smaller <code>world.step_s</code> closes \
+         it if the integration is the reason."
     };
     format!(
-        "<header>\n<h1>{}</h1>\n<p class=\"lead\">{}</p>\n{claim}<p>{} tasks, {} sets of actuators, {} \
-         flights. {ledgers}</p>\n</header>\n",
+        "<header>\n<h1>{}</h1>\n<p class=\"lead\">{}</p>\n{claim}<p>{}, {} of actuators, {}. {ledgers}</p>\n\
+         </header>\n",
         escaped(&outcome.study),
         escaped(&outcome.summary),
-        outcome.tasks.len(),
-        outcome.sets.len(),
-        outcome.flights
+        counted(outcome.tasks.len(), "task"),
+        counted(outcome.sets.len(), "set"),
+        counted(outcome.flights, "flight")
     )
 }
 
@@ -80,8 +81,8 @@ fn findings(outcome: &StudyOutcome) -> String {
             String::new()
         } else {
             format!(
-                "<details><summary>{} tasks</summary><p class=\"hint\">{}</p></details>",
-                finding.tasks.len(),
+                "<details><summary>{}</summary><p class=\"hint\">{}</p></details>",
+                counted(finding.tasks.len(), "task"),
                 escaped(&finding.tasks.join("; "))
             )
         };
@@ -98,17 +99,22 @@ fn demands(tasks: &[TaskOutcome]) -> String {
             return row;
         }
         let hand = task.by_hand.as_ref();
-        let number = |value: Option<f64>| figure(&value.map_or("\u{2013}".to_owned(), short));
-        row.push(figure(&short(task.duration_s)));
-        row.push(figure(&short(task.peak_torque_nm)));
-        row.push(number(hand.map(|h| h.torque)));
-        // What is round-off beside the peak is nothing.
-        let told = |x: f64| if x < 1e-9 * task.peak_torque_nm { 0.0 } else { x };
-        row.extend(task.peak_torque_by_axis_nm.map(|x| figure(&short(told(x)))));
-        row.push(figure(&short(task.peak_momentum_nms)));
-        row.push(number(hand.map(|h| h.momentum)));
-        row.push(number(task.gathered_nm));
-        row.push(figure(&short(task.tool_error_mm)));
+        let [x, y, z] = task.peak_torque_by_axis_nm.map(Some);
+        let figures = [
+            Some(task.duration_s),
+            Some(task.peak_torque_nm),
+            hand.map(|h| h.torque),
+            x,
+            y,
+            z,
+            Some(task.peak_momentum_nms),
+            hand.map(|h| h.momentum),
+            task.gathered_nm,
+            Some(task.tool_error_mm),
+        ];
+        let largest = figures.iter().flatten().copied().fold(0.0, f64::max);
+        let told = |x: f64| short(beside_largest(x, largest));
+        row.extend(figures.map(|x| figure(&x.map_or("\u{2013}".to_owned(), told))));
         row
     });
     let head = [
@@ -121,7 +127,7 @@ fn demands(tasks: &[TaskOutcome]) -> String {
         "z",
         "Peak momentum <small>N·m·s</small>",
         "by hand",
-        "Gathered at the end <small>N·m·s/s</small>",
+        "Gathered at the end <small>N·m</small>",
         "Tool error <small>mm</small>",
     ];
     let hows = tasks.iter().filter_map(|task| {
@@ -139,14 +145,6 @@ fn demands(tasks: &[TaskOutcome]) -> String {
         .to_owned()
         + &table("sizes", &head, &rows.collect::<Vec<_>>())
         + &by_hand
-}
-
-/// Three significant digits, for tables of figures that are estimates.
-pub(crate) fn short(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return significant(value);
-    }
-    format!("{value:.2e}").parse().map_or_else(|_| significant(value), significant)
 }
 
 /// A figure with plain steering, and in brackets with the best if that is another.
@@ -258,12 +256,17 @@ fn mark(answer: Answer) -> &'static str {
     }
 }
 
+/// Beside the verdict of a flight whose ledger does not close.
+const LEDGER_OPEN: &str = " <span class=\"fail\">\u{2717} ledger open</span>";
+
 fn flights(outcome: &StudyOutcome) -> String {
     let flown = outcome.tasks.iter().flat_map(|task| {
         task.verdicts.iter().filter_map(move |v| Some((task, v, v.flown.as_ref()?)))
     });
     let rows = flown.map(|(task, verdict, flown)| {
         let limit = flown.ended.as_ref().or(flown.limit.as_ref());
+        let holds = crate::markup::verdict_mark(flown.requirements_hold);
+        let open = if flown.closes { "" } else { LEDGER_OPEN };
         vec![
             words(&task.name),
             words(&verdict.set),
@@ -271,7 +274,7 @@ fn flights(outcome: &StudyOutcome) -> String {
             figure(&short(flown.tool_error_at_end_mm)),
             figure(&short(flown.attitude_error_deg)),
             figure(&flown.propellant_kg.map_or("\u{2013}".to_owned(), |kg| short(1e3 * kg))),
-            format!("<td>{}</td>", crate::markup::verdict_mark(flown.requirements_hold)),
+            format!("<td>{holds}{open}</td>"),
             words(limit.map_or("", String::as_str)),
         ]
     });

@@ -1,9 +1,9 @@
 //! A study as plain text, for the terminal.
 
-use wrasse_study::{Answer, SetVerdict, StudyOutcome, TaskOutcome};
+use wrasse_study::{Answer, SetCard, SetVerdict, StudyOutcome, TaskOutcome};
 
-use crate::numbers::significant;
-use crate::tables::{Side, aligned, printable};
+use crate::numbers::{beside_largest, counted, pace, rounded};
+use crate::tables::{OPEN, Side, aligned, printable};
 
 /// Tasks up to which each set gets its own line; more are shown as a matrix.
 const CLOSELY: usize = 2;
@@ -11,7 +11,7 @@ const CLOSELY: usize = 2;
 /// The demands, the verdicts, the flights in closed loop and the findings.
 pub fn study_table(outcome: &StudyOutcome) -> String {
     let mut text = demands(outcome);
-    text += "\n";
+    text += &format!("\n{}\n", sets(&outcome.sets));
     if outcome.tasks.len() <= CLOSELY {
         for task in &outcome.tasks {
             text += &closely(outcome, task);
@@ -26,8 +26,35 @@ pub fn study_table(outcome: &StudyOutcome) -> String {
     for finding in &outcome.findings {
         text += &format!("{}: {}\n", finding.about, printable(&finding.text));
     }
-    let ledgers = if outcome.closes { "close" } else { "DO NOT ALL CLOSE" };
-    text + &format!("\n{} flights; their ledgers {ledgers}\n", outcome.flights)
+    text + &ledgers(outcome)
+}
+
+/// Whether the ledgers close; if not, which stay open, and what may help.
+fn ledgers(outcome: &StudyOutcome) -> String {
+    let flights = counted(outcome.flights, "flight");
+    if outcome.closes {
+        return format!("\n{flights}; their ledgers close\n");
+    }
+    let open = open_flights(outcome);
+    if open.is_empty() {
+        // The outcome holds ledgers of flights in closed loop only.
+        let whose = "of a task that is not flown in closed loop, or its numbers broke down";
+        return format!("\n{flights}; LEDGER OPEN: {whose}\n{OPEN}");
+    }
+    let mut text = format!("\n{flights}; LEDGER OPEN:\n");
+    for (task, set) in open {
+        text += &format!("  {} with {}\n", printable(task), printable(set));
+    }
+    text + OPEN
+}
+
+/// (task, set) of the flights in closed loop whose ledger stays open.
+fn open_flights(outcome: &StudyOutcome) -> Vec<(&str, &str)> {
+    let flown = outcome.tasks.iter().flat_map(|task| {
+        let open = |v: &&SetVerdict| v.flown.as_ref().is_some_and(|flown| !flown.closes);
+        task.verdicts.iter().filter(open).map(|v| (task.name.as_str(), v.set.as_str()))
+    });
+    flown.collect()
 }
 
 /// What each task asks, and the same by hand.
@@ -35,24 +62,25 @@ fn demands(outcome: &StudyOutcome) -> String {
     let mut rows = [
         ["", "", "peak", "by", "peak", "by", "gathered", "tool"],
         ["", "lasts", "torque", "hand", "momentum", "hand", "at the end", "error"],
-        ["task", "s", "N·m", "N·m", "N·m·s", "N·m·s", "N·m·s/s", "mm"],
+        ["task", "s", "N·m", "N·m", "N·m·s", "N·m·s", "N·m", "mm"],
     ]
     .map(|row| row.map(String::from).to_vec())
     .to_vec();
-    let number = |value: Option<f64>| value.map_or("-".to_owned(), rounded);
     let flown = |task: &&TaskOutcome| task.unflown.is_none();
     for task in outcome.tasks.iter().filter(flown) {
         let mut row = vec![task.name.clone()];
         let hand = task.by_hand.as_ref();
-        row.extend([
-            rounded(task.duration_s),
-            rounded(task.peak_torque_nm),
-            number(hand.map(|h| h.torque)),
-            rounded(task.peak_momentum_nms),
-            number(hand.map(|h| h.momentum)),
-            number(task.gathered_nm),
-            rounded(task.tool_error_mm),
-        ]);
+        let figures = [
+            Some(task.duration_s),
+            Some(task.peak_torque_nm),
+            hand.map(|h| h.torque),
+            Some(task.peak_momentum_nms),
+            hand.map(|h| h.momentum),
+            task.gathered_nm,
+            Some(task.tool_error_mm),
+        ];
+        let largest = figures.iter().flatten().copied().fold(0.0, f64::max);
+        row.extend(figures.map(|x| number(x.map(|x| beside_largest(x, largest)))));
         rows.push(row);
     }
     let mut sides = vec![Side::Right; 8];
@@ -66,12 +94,31 @@ fn demands(outcome: &StudyOutcome) -> String {
     text
 }
 
-/// Three significant digits.
-fn rounded(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return significant(value);
+/// Three significant digits; a dash for what is not known.
+fn number(value: Option<f64>) -> String {
+    value.map_or("-".to_owned(), rounded)
+}
+
+/// What each set can give and hold, what it weighs and takes.
+fn sets(sets: &[SetCard]) -> String {
+    let heads = [
+        ["", "torque", "", "", "momentum", "", "", "anywhere", "", "", ""],
+        ["", "x", "y", "z", "x", "y", "z", "at best", "mass", "power", "propellant"],
+        ["set", "N·m", "N·m", "N·m", "N·m·s", "N·m·s", "N·m·s", "N·m·s", "kg", "W", "kg"],
+    ];
+    let mut rows = heads.map(|row| row.map(String::from).to_vec()).to_vec();
+    let any = |value: Option<f64>| value.map_or("any".to_owned(), rounded);
+    for set in sets {
+        let mut row = vec![set.name.clone()];
+        let reaches = set.torque_nm.iter().chain(&set.momentum_nms);
+        row.extend(reaches.map(|reach| any(reach.map(|both| both.plain))));
+        row.push(any(set.momentum_everywhere_nms));
+        row.extend([set.mass_kg, set.power_w, set.propellant_kg].map(number));
+        rows.push(row);
     }
-    format!("{value:.2e}").parse().map_or_else(|_| significant(value), significant)
+    let mut sides = vec![Side::Right; 11];
+    sides[0] = Side::Left;
+    aligned(&rows, &sides)
 }
 
 /// Tasks down, sets across.
@@ -95,7 +142,7 @@ fn matrix(outcome: &StudyOutcome) -> String {
     let sides = vec![Side::Left; outcome.sets.len() + 1];
     aligned(&rows, &sides)
         + "steer: only with steering that avoids or escapes singularities; no T: not the torque, no H: not \
-           the momentum;\nx4.1: 4.1 times slower it can (with plain steering)\n"
+           the momentum;\nx4.1: 4.1 times slower it can (with plain steering; rounded up)\n"
 }
 
 fn cell(verdict: &SetVerdict) -> String {
@@ -116,24 +163,17 @@ fn cell(verdict: &SetVerdict) -> String {
     }
 }
 
-/// A factor, rounded so that it still suffices.
-fn pace(factor: f64) -> String {
-    let tenths = libm::ceil(10.0 * factor - 1e-6) / 10.0;
-    if tenths < 10.0 { format!("{tenths:.1}") } else { format!("{:.0}", libm::ceil(factor)) }
-}
-
 /// One task, a line for each set.
 fn closely(outcome: &StudyOutcome, task: &TaskOutcome) -> String {
     if task.unflown.is_some() {
         return String::new();
     }
     let mut rows = [
-        ["", "torque", "", "momentum", "", "full", "times", "fuel", "mass", "power"],
-        [task.name.as_str(), "N·m", "", "N·m·s", "", "after s", "slower", "g", "kg", "W"],
+        ["", "torque", "", "momentum", "", "full", "times", "fuel"],
+        [task.name.as_str(), "N·m", "", "N·m·s", "", "after s", "slower", "g"],
     ]
     .map(|row| row.map(String::from).to_vec())
     .to_vec();
-    let number = |value: Option<f64>| value.map_or("-".to_owned(), rounded);
     for (set, verdict) in outcome.sets.iter().zip(&task.verdicts) {
         rows.push(vec![
             set.name.clone(),
@@ -144,11 +184,9 @@ fn closely(outcome: &StudyOutcome, task: &TaskOutcome) -> String {
             verdict.saturates_s.plain.map_or("never".to_owned(), rounded),
             verdict.slower.plain.map_or("-".to_owned(), pace),
             number(verdict.fuel_kg.map(|kg| 1e3 * kg)),
-            number(set.mass_kg),
-            number(set.power_w),
         ]);
     }
-    let mut sides = vec![Side::Right; 10];
+    let mut sides = vec![Side::Right; 8];
     (sides[0], sides[2], sides[4]) = (Side::Left, Side::Left, Side::Left);
     aligned(&rows, &sides) + "\n"
 }
@@ -200,22 +238,4 @@ fn shortened(text: &str) -> String {
         return text.to_owned();
     }
     text.chars().take(MOST - 1).chain(['…']).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_pace_is_rounded_to_the_slower_side() {
-        assert_eq!([1.0, 1.01, 4.1, 9.96, 21.2].map(pace), ["1.0", "1.1", "4.1", "10", "22"]);
-    }
-
-    #[test]
-    fn figures_of_the_terminal_have_three_digits() {
-        assert_eq!(
-            [92.4567, 0.0, 12345.0, 0.000_123_45].map(rounded),
-            ["92.5", "0", "12300", "1.23e-4"]
-        );
-    }
 }

@@ -149,13 +149,49 @@ fn the_terminal_shows_demands_a_matrix_of_verdicts_flights_and_findings() {
 }
 
 #[test]
+fn the_terminal_always_shows_what_the_sets_can_give_and_what_they_weigh() {
+    let mut outcome = sample();
+    for tasks in [3, 1] {
+        outcome.tasks.truncate(tasks);
+        let table = study_table(&outcome);
+        let row = |name: &str| {
+            let line = table.lines().find(|line| line.starts_with(name)).unwrap_or_default();
+            line[name.len()..].split_whitespace().map(String::from).collect::<Vec<_>>()
+        };
+        let gyros = ["86.6", "86.6", "86.6", "86.6", "86.6", "86.6", "237", "48", "-", "-"];
+        assert_eq!(row("4 gyros 75 N·m·s"), gyros, "{table}");
+        assert_eq!(row("ideal")[..2], ["any", "any"]);
+    }
+}
+
+#[test]
+fn a_ledger_that_stays_open_is_told_with_its_task_and_set_and_a_hint() {
+    let mut outcome = sample();
+    outcome.closes = false;
+    if let Some(flown) = &mut outcome.tasks[0].verdicts[2].flown {
+        flown.closes = false;
+    }
+    let table = study_table(&outcome);
+    let told = "4 flights; LEDGER OPEN:\n  200 N lateral with 4 gyros 75 N·m·s\n";
+    assert!(table.contains(told) && table.contains("a smaller world.step_s"), "{table}");
+    assert_eq!(study_html(&outcome).matches("ledger open").count(), 1);
+    // None of those flown in closed loop.
+    for task in &mut outcome.tasks {
+        task.verdicts.iter_mut().for_each(|verdict| verdict.flown = None);
+    }
+    let table = study_table(&outcome);
+    assert!(table.contains("LEDGER OPEN: of a task that is not flown"), "{table}");
+}
+
+#[test]
 fn two_tasks_are_shown_with_a_line_for_each_set() {
     let mut outcome = sample();
     outcome.tasks.pop();
     let table = study_table(&outcome);
     let gyros: Vec<_> = table.lines().filter(|l| l.starts_with("4 gyros")).collect();
-    assert_eq!(gyros.len(), 2, "{table}");
-    assert!(gyros[0].contains("steer") && gyros[0].contains("48") && gyros[0].contains("0.5"));
+    // One more in the table of the sets.
+    assert_eq!(gyros.len(), 3, "{table}");
+    assert!(gyros[1].contains("steer") && gyros[1].contains("4.1") && gyros[1].contains("0.5"));
 }
 
 #[test]
