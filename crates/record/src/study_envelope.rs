@@ -196,22 +196,32 @@ fn axes(view: &View, size: f64) -> String {
     for (name, unit) in ["x", "y", "z"].iter().zip(units) {
         let ([x, y], [to_x, to_y]) = (view.place(unit * -far), view.place(unit * far));
         svg += &format!("<path class=\"axle\" d=\"M{x:.0} {y:.0}L{to_x:.0} {to_y:.0}\"/>");
-        let [x, y] = view.place(unit * (1.3 * size));
+        let label = view.place(unit * (1.3 * size));
+        let [x, y] = label;
         svg += &format!(
             "<text class=\"axis\" x=\"{x:.0}\" y=\"{y:.0}\" text-anchor=\"middle\">{name} (N·m·s)</text>\n"
         );
         for value in marks(-far, far, step).filter(|value| value.abs() > 0.5 * step) {
             let [x, y] = view.place(unit * value);
-            svg += &format!(
-                "<circle class=\"tick\" cx=\"{x:.0}\" cy=\"{y:.0}\" r=\"14\"/>\
-                 <text class=\"figure\" x=\"{:.0}\" y=\"{:.0}\">{}</text>\n",
-                x + 30.0,
-                y + 100.0,
-                significant(value)
-            );
+            svg += &format!("<circle class=\"tick\" cx=\"{x:.0}\" cy=\"{y:.0}\" r=\"14\"/>\n");
+            let at = [x + 30.0, y + 100.0];
+            if !is_under(label, at) {
+                svg += &format!(
+                    "<text class=\"figure\" x=\"{:.0}\" y=\"{:.0}\">{}</text>\n",
+                    at[0],
+                    at[1],
+                    significant(value)
+                );
+            }
         }
     }
     svg
+}
+
+/// Whether a figure that begins here would touch the name of an axis that is centred there.
+fn is_under([x, y]: [f64; 2], figure: [f64; 2]) -> bool {
+    // The name is some 480 wide, a figure some 200, both some 110 high.
+    (-480.0..260.0).contains(&(figure[0] - x)) && (figure[1] - y).abs() < 120.0
 }
 
 /// What a task asks for, as a line from its first to its last point.

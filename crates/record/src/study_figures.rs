@@ -18,9 +18,12 @@ const fn logarithmic(label: &str) -> Axis<'_> {
     Axis { label, logarithmic: true }
 }
 
+/// Colours of sets; the first colour of all is that of the demand.
+const COLOURS: usize = 15;
+
 /// The colour of a set: the same in every plot.
 fn colour(k: usize) -> usize {
-    1 + (k + 1) % 8
+    2 + k % COLOURS
 }
 
 /// Torque and momentum of each task over time, with what each set can give along their peaks.
@@ -157,8 +160,8 @@ pub(crate) fn error_figure(outcome: &StudyOutcome) -> String {
         });
         let mut points: Vec<_> = points.collect();
         points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        // There are more sets than colours.
-        let mark = if k < 8 { Mark::Joined } else { Mark::JoinedDashed };
+        // There may be more sets than colours.
+        let mark = if k < COLOURS { Mark::Joined } else { Mark::JoinedDashed };
         Series { name: set.name.clone(), colour: colour(k), mark, points }
     });
     let series: Vec<_> = series.filter(|series| !series.points.is_empty()).collect();

@@ -23,7 +23,7 @@ pub(crate) enum Mark {
 #[derive(Debug, Clone)]
 pub(crate) struct Series {
     pub(crate) name: String,
-    /// Which of the eight colours, from one.
+    /// Which of the sixteen colours, from one.
     pub(crate) colour: usize,
     pub(crate) mark: Mark,
     pub(crate) points: Vec<[f64; 2]>,
