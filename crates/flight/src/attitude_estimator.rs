@@ -14,6 +14,10 @@ pub const TRACKER_MEMORY: usize = 128;
 const GATE: f64 = 5.0;
 /// After this many refusals in a row the filter starts again from the next reading.
 const PATIENCE: u32 = 10;
+/// How much less is believed of the bias at each restart (–), and down to where (rad/s): 0.57 deg/s, more
+/// than any gyro that a star tracker is flown with.
+const WIDENING: f64 = 10.0;
+const WIDEST_BIAS: f64 = 1e-2;
 /// What the arithmetic rounds about each axis, in a period and in a reading (units of ε, rad).
 const ROUND_OFF: (f64, f64) = (2.0, 8.0);
 /// Least noise of a reading about each axis (rad): a perfect one meets an imperfect model.
@@ -58,6 +62,8 @@ pub struct AttitudeEstimator<T> {
     bias_B: Vec3<T>,
     covariance: ErrorCovariance<T>,
     past: PastRates<T>,
+    /// Standard deviation of the bias at the last start, about each axis (rad/s).
+    bias_sigma: T,
     refused: u32,
     refused_in_a_row: u32,
     restarts: u32,
@@ -90,6 +96,7 @@ impl<T: Scalar> AttitudeEstimator<T> {
             bias_B: Vec3::zero(),
             covariance: ErrorCovariance::of_sigmas(attitude, bias),
             past: PastRates { ring: [(Vec3::zero(), T::zero()); TRACKER_MEMORY], newest: 0 },
+            bias_sigma: bias,
             refused: 0,
             refused_in_a_row: 0,
             restarts: 0,
@@ -203,15 +210,22 @@ impl<T: Scalar> AttitudeEstimator<T> {
         self.covariance.aa += isotropic(since);
     }
     /// Count a reading that does not fit. After many in a row the filter is wrong, not they: start
-    /// again from this one.
+    /// again from this one. What is known of the bias is kept, but believed less each time: a bias that
+    /// is larger than the filter was told to expect would make it fail for ever.
     fn refuse(&mut self, carried: &Carried<T>) {
         self.refused = self.refused.saturating_add(1);
         self.refused_in_a_row += 1;
-        if self.refused_in_a_row >= PATIENCE {
-            let (refused, restarts) = (self.refused, self.restarts.saturating_add(1));
-            let past = self.past.clone();
-            *self = Self { past, refused, restarts, ..Self::new(&self.setup, carried.quat_NB) };
+        if self.refused_in_a_row < PATIENCE {
+            return;
         }
+        let c = T::from_f64;
+        let widest = self.setup.start_bias_sigma.max(c(WIDEST_BIAS));
+        self.bias_sigma = (self.bias_sigma * c(WIDENING)).min(widest);
+        self.quat_NB = carried.quat_NB;
+        self.covariance =
+            ErrorCovariance::of_sigmas(self.setup.start_attitude_sigma, self.bias_sigma);
+        self.refused_in_a_row = 0;
+        self.restarts = self.restarts.saturating_add(1);
     }
     /// A reading carried from when it was taken to now, by the gyro without its bias. None if it is
     /// no number, or older than the memory reaches.
