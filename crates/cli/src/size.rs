@@ -16,13 +16,14 @@ use wrasse_study::{StudyOutcome, read_study, size};
 /// Takes a study (a mission file with a table [study], such as studies/section-4.toml) or any mission,
 /// which is then weighed against the sets of studies/sets.toml. Every task is flown with the reference;
 /// those that the study names are flown in closed loop with every set.
-/// Writes report.html and summary.json to out/NAME. Exit code 0: the study ran and its ledgers close (a
-/// study of which no set suffices is a result, not an error); 2: bad input, or a number broke down.
+/// Writes report.html and summary.json to out/NAME-size, beside what `wrasse run` leaves in out/NAME.
+/// Exit code 0: the study ran and its ledgers close (a study of which no set suffices is a result, not
+/// an error); 2: bad input, a ledger that stays open, or a number that broke down.
 #[derive(Debug, Args)]
 pub(crate) struct Size {
     /// The study, or a mission.
     study: PathBuf,
-    /// Folder for the results, in place of out/NAME.
+    /// Folder for the results, in place of out/NAME-size.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Print the summary as JSON in place of the tables.
@@ -50,7 +51,9 @@ impl Size {
                 return bad();
             }
         };
-        let folder = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join(study.name()));
+        // The report of a run of the same file stays what it is.
+        let usual = || PathBuf::from("out").join(format!("{}-size", study.name()));
+        let folder = self.out.clone().unwrap_or_else(usual);
         if let Some(way) = in_the_way(&folder) {
             tell(&format!(
                 "error: the results cannot be written to {}: {} is not a folder; choose another \

@@ -54,11 +54,23 @@ fn a_study_ends_with_0_and_leaves_a_report_and_a_summary() {
     let folder = with_study(SMALL);
     let said = folder.wrasse(&["size", "study.toml"]);
     assert_eq!(said.code, 0, "{}{}", said.out, said.err);
-    assert_eq!(folder.names("out/small"), ["report.html", "summary.json"]);
+    assert_eq!(folder.names("out/small-size"), ["report.html", "summary.json"]);
     for word in ["wheels", "N·m·s", "claim: Wheels suffice.", "2 flights; their ledgers close"] {
         assert!(said.out.contains(word), "no `{word}` in\n{}", said.out);
     }
-    assert!(said.out.trim_end().ends_with("report: out/small/report.html"), "{}", said.out);
+    assert!(said.out.trim_end().ends_with("report: out/small-size/report.html"), "{}", said.out);
+}
+
+#[test]
+fn the_report_of_a_run_of_the_same_mission_is_left_alone() {
+    let folder = with_study(SMALL);
+    let said = folder.wrasse(&["run", "study.toml"]);
+    assert_ne!(said.code, 2, "{}{}", said.out, said.err);
+    let before = folder.bytes("out/small/report.html");
+    let said = folder.wrasse(&["size", "study.toml"]);
+    assert_eq!(said.code, 0, "{}{}", said.out, said.err);
+    assert!(folder.bytes("out/small/report.html") == before, "it is another");
+    assert_eq!(folder.names("out"), ["small", "small-size"]);
 }
 
 /// No set suffices: that is an answer.
