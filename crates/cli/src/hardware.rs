@@ -4,7 +4,8 @@ use crate::input::{say, tell};
 use crate::{YES, bad};
 use clap::Args;
 use std::process::ExitCode;
-use wrasse_vehicle::{Grade, HardwareEntry, hardware};
+use wrasse_document::closest;
+use wrasse_vehicle::{Grade, HardwareEntry, Provenance, hardware};
 
 /// List the wheels, gyros, thrusters and sensors that come with wrasse.
 ///
@@ -32,9 +33,7 @@ impl Hardware {
             return YES;
         };
         let Some(entry) = all.iter().find(|entry| entry.name == *name) else {
-            tell(&format!(
-                "error: no hardware is called {name:?}: `wrasse hardware` lists what there is"
-            ));
+            tell(&no_such(name, &all));
             return bad();
         };
         show(entry);
@@ -42,7 +41,21 @@ impl Hardware {
     }
 }
 
-/// One table for each kind; what is not published is marked.
+/// What to say to a name that nothing has.
+fn no_such(name: &str, all: &[HardwareEntry]) -> String {
+    let names = || all.iter().map(|entry| entry.name.as_str());
+    let begun: Vec<&str> = names().filter(|known| known.starts_with(name)).collect();
+    let help = match closest(name, names()) {
+        Some(near) => format!("did you mean {near:?}?"),
+        None if name.is_empty() || begun.is_empty() => {
+            "`wrasse hardware` lists what there is".to_owned()
+        }
+        None => format!("did you mean one of {}?", begun.join(", ")),
+    };
+    format!("error: no hardware is called {name:?}: {help}")
+}
+
+/// One table for each kind; what is not published at first hand is marked.
 fn list(all: &[HardwareEntry]) {
     let width = all.iter().map(|entry| entry.name.len()).max().unwrap_or(0);
     let mut kind = "";
@@ -60,7 +73,8 @@ fn list(all: &[HardwareEntry]) {
             columns.iter().map(|(key, _)| format!("{:>12}", cell(entry, key))).collect();
         say(&format!("{:width$}  {}  {}", entry.name, cells.join(""), entry.summary));
     }
-    say("\n* assumed or derived: `wrasse hardware NAME` says how");
+    say("\n* assumed or derived: `wrasse hardware NAME` says how\n\
+         ~ published, but second-hand or not verified against the data sheet");
 }
 
 /// The numbers that tell units of a kind apart: key and head.
@@ -92,20 +106,44 @@ fn columns(kind: &str) -> &'static [(&'static str, &'static str)] {
     }
 }
 
-/// A number of a unit, marked if it is not published; a dash if it has none.
+/// A number of a unit, with its mark; a dash if it has none.
 fn cell(entry: &HardwareEntry, key: &str) -> String {
-    let Some((_, number)) = entry.numbers.iter().find(|(known, _)| *known == key) else {
-        return "-".into();
-    };
-    let mark = if grade(entry, key) == Some(Grade::Published) { " " } else { "*" };
-    format!("{number}{mark}")
+    match number(entry, key) {
+        Some(number) => format!("{number}{}", mark(entry, key)),
+        None => derived_momentum(entry, key).map_or("-".into(), |momentum| format!("{momentum}*")),
+    }
 }
 
-/// How sure a number of a unit is: its own source, or that of the unit.
-fn grade(entry: &HardwareEntry, key: &str) -> Option<Grade> {
+fn number(entry: &HardwareEntry, key: &str) -> Option<f64> {
+    entry.numbers.iter().find(|(known, _)| *known == key).map(|(_, number)| *number)
+}
+
+/// Momentum of a wheel that gives its inertia and speed instead (N·m·s), to three digits.
+fn derived_momentum(entry: &HardwareEntry, key: &str) -> Option<f64> {
+    if key != "momentum_nms" || number(entry, key).is_some() {
+        return None;
+    }
+    let inertia = number(entry, "inertia_kgm2")?;
+    let speed = number(entry, "speed_limit_rpm")? * std::f64::consts::TAU / 60.0;
+    format!("{:.2e}", inertia * speed).parse().ok()
+}
+
+/// What is not published is marked, and what is published at second hand.
+fn mark(entry: &HardwareEntry, key: &str) -> char {
+    let second_hand = |source: &str| {
+        ["second-hand", "second hand", "not verified"].iter().any(|word| source.contains(word))
+    };
+    match source(entry, key) {
+        Some(row) if row.grade == Grade::Published && second_hand(&row.source) => '~',
+        Some(row) if row.grade == Grade::Published => ' ',
+        _ => '*',
+    }
+}
+
+/// Where a number of a unit comes from: its own source, or that of the unit.
+fn source<'a>(entry: &'a HardwareEntry, key: &str) -> Option<&'a Provenance> {
     let of = format!("model.{}.{key}", entry.name);
-    let own = entry.provenance.iter().find(|row| row.of == of);
-    own.or(entry.provenance.first()).map(|row| row.grade)
+    entry.provenance.iter().find(|row| row.of == of).or(entry.provenance.first())
 }
 
 /// All numbers of a unit, and their sources.
@@ -114,6 +152,9 @@ fn show(entry: &HardwareEntry) {
     let width = entry.numbers.iter().map(|(key, _)| key.len()).max().unwrap_or(0);
     for (key, number) in &entry.numbers {
         say(&format!("{key:width$} = {number}"));
+    }
+    if let Some(momentum) = derived_momentum(entry, "momentum_nms") {
+        say(&format!("momentum: {momentum} N·m·s, derived: inertia times largest speed"));
     }
     say("");
     for row in &entry.provenance {

@@ -17,7 +17,10 @@ fn the_hardware_is_listed_kind_by_kind_and_what_is_not_published_is_marked() {
     assert_eq!(line("honeywell-hr16-100")[1..5], ["0.2", "100", "12", "126*"]);
     assert_eq!(line("gyro-class-250")[1..3], ["250*", "250*"]);
     assert_eq!(line("moog-monarc-22-6")[1..4], ["22", "229.5", "0.02"]);
-    assert!(said.out.contains("* assumed or derived"), "{}", said.out);
+    // Inertia times speed: 0.00136 kg·m² at 7000 rpm.
+    assert_eq!(line("small-servicer-2024")[1..4], ["0.1", "0.997*", "0.9"]);
+    assert_eq!(line("airbus-cmg-75-75s")[1..4], ["75~", "75~", "33*"]);
+    assert!(said.out.contains("* assumed or derived") && said.out.contains("~ published, but"));
 }
 
 #[test]
@@ -39,6 +42,15 @@ fn hardware_that_is_not_there_is_an_error() {
     let said = Folder::new().wrasse(&["hardware", "airbus-cmg"]);
     assert_eq!((said.code, said.out.as_str()), (2, ""));
     assert!(said.err.contains("no hardware is called \"airbus-cmg\""), "{}", said.err);
+    assert!(said.err.contains("did you mean one of airbus-cmg-15-45s, "), "{}", said.err);
+    for (name, help) in [
+        ("honeywell-hr16-10", "did you mean \"honeywell-hr16-100\"?"),
+        ("flywheel", "`wrasse hardware` lists what there is"),
+        ("", "`wrasse hardware` lists what there is"),
+    ] {
+        let said = Folder::new().wrasse(&["hardware", name]);
+        assert!(said.code == 2 && said.err.contains(help), "{name}: {}", said.err);
+    }
 }
 
 #[test]
