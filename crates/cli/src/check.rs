@@ -5,13 +5,14 @@ use crate::{YES, bad};
 use clap::Args;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use wrasse_document::Complaint;
+use wrasse_document::{Complaint, Document};
 use wrasse_mission::read_mission;
 use wrasse_vehicle::read_vehicle;
 
 /// Check vehicle and mission files: every complaint at once, with its place.
 ///
-/// A TOML file with a `vehicle` key is a mission, any other a vehicle; .urdf and .xml are vehicles.
+/// A TOML file with a `vehicle` key or phases is a mission, any other a vehicle; .urdf and .xml are
+/// vehicles. Lists of hardware and of sets of actuators are told from these, and read as TOML only.
 /// Exit code 0: usable (warnings may be printed); 2: not usable.
 #[derive(Debug, Args)]
 pub(crate) struct Check {
@@ -56,6 +57,12 @@ fn findings(file: &PathBuf, text: String) -> (Vec<Complaint>, Option<String>) {
             Err(complaints) => (complaints, None),
         };
     }
+    if let Some(what) = list(file, &text) {
+        return match Document::parse(file, text) {
+            Ok(_) => (vec![], Some(what)),
+            Err(complaints) => (complaints, None),
+        };
+    }
     match read_vehicle(file, text) {
         Ok(vehicle) => {
             let joints = vehicle.robot.joint_count();
@@ -67,12 +74,42 @@ fn findings(file: &PathBuf, text: String) -> (Vec<Complaint>, Option<String>) {
     }
 }
 
+/// What a file is that has neither a name nor a body at its top level: tables of models, or sets of
+/// actuators; nothing for any other file.
+fn list(file: &std::path::Path, text: &str) -> Option<String> {
+    const MODELS: [&str; 5] =
+        ["[[wheel]]", "[[gyro]]", "[[thruster]]", "[[rate_gyro]]", "[[star_tracker]]"];
+    let lines =
+        || text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+    if !is_toml(file) || !lines().next()?.starts_with('[') {
+        return None;
+    }
+    let models = lines().filter(|line| MODELS.contains(line)).count();
+    let rows = lines().filter(|line| *line == "[[compare.row]]").count();
+    if models > 0 && lines().filter(|line| line.starts_with('[')).all(|line| MODELS.contains(&line))
+    {
+        return Some(format!(
+            "a list of {models} model(s) of hardware, read as TOML only: files name models of the \
+             program's own lists (`wrasse hardware`)"
+        ));
+    }
+    (rows > 0 && lines().any(|line| line == "[study]")).then(|| {
+        format!(
+            "a study's list of {rows} set(s) without a vehicle or phases, read as TOML only: \
+             `wrasse size MISSION` weighs a mission against such sets"
+        )
+    })
+}
+
+fn is_toml(file: &std::path::Path) -> bool {
+    file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
+}
+
 /// A mission names its vehicle, at the top level of a TOML file.
 fn is_mission(file: &std::path::Path, text: &str) -> bool {
-    let toml = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
     let top = text.lines().map(str::trim_start).take_while(|line| !line.starts_with('['));
     let names_vehicle = |line: &str| {
         line.strip_prefix("vehicle").is_some_and(|rest| rest.trim_start().starts_with('='))
     };
-    toml && (top.into_iter().any(names_vehicle) || text.contains("\n[[phase]]"))
+    is_toml(file) && (top.into_iter().any(names_vehicle) || text.contains("\n[[phase]]"))
 }

@@ -264,6 +264,29 @@ fn check_accepts_every_vehicle_and_every_mission_that_is_shipped() {
     }
 }
 
+#[test]
+fn check_says_what_lists_of_hardware_and_of_sets_are() {
+    let folder = Folder::new();
+    for (file, what) in [
+        ("vehicles/hardware/wheels.toml", "model(s) of hardware"),
+        ("vehicles/hardware/gyros.toml", "model(s) of hardware"),
+        ("vehicles/hardware/thrusters.toml", "model(s) of hardware"),
+        ("vehicles/hardware/sensors.toml", "model(s) of hardware"),
+        ("studies/sets.toml", "set(s) without a vehicle"),
+    ] {
+        let said = folder.wrasse(&["check", &at(file)]);
+        assert_eq!((said.code, said.err.as_str()), (0, ""), "{file}");
+        assert!(said.out.contains(what) && !said.out.contains(" 0 "), "{}", said.out);
+    }
+    // A list that is no TOML, and a vehicle without a name.
+    folder.put("list.toml", "[[wheel]]\nname = \n");
+    folder.put("vehicle.toml", "[[wheel]]\nname = \"a\"\n[[body]]\nname = \"b\"\n");
+    for file in ["list.toml", "vehicle.toml"] {
+        let said = folder.wrasse(&["check", file]);
+        assert!(said.code == 2 && said.err.contains(file), "{}{}", said.out, said.err);
+    }
+}
+
 /// What stands behind the first `mark`.
 fn after<'a>(text: &'a str, mark: &str) -> &'a str {
     text.split_once(mark).unwrap_or_else(|| panic!("no `{mark}` in {text}")).1
