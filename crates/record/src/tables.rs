@@ -43,7 +43,7 @@ fn was_flown(case: &CaseOutcome) -> bool {
     !matches!(case.end, End::Infeasible { .. })
 }
 
-/// Most limits that are told one by one.
+/// Most limits, or cases, that are told one by one.
 const LIMITS: usize = 12;
 
 /// Limits that were reached or passed, and units that failed.
@@ -67,8 +67,8 @@ fn limits_reached(case: &CaseOutcome) -> String {
 }
 
 /// The first limit or failure of each case that has any, a line each.
-fn limits_of_cases(cases: &[CaseOutcome]) -> String {
-    let lines = cases.iter().filter_map(|case| {
+fn limits_of_cases(cases: &[CaseOutcome]) -> Vec<String> {
+    let line = |case: &CaseOutcome| {
         let limits = limits(case);
         let first = limits.first()?;
         let rest = match limits.len() {
@@ -76,14 +76,18 @@ fn limits_of_cases(cases: &[CaseOutcome]) -> String {
             all => format!("; and {} more: see the report", all - 1),
         };
         let time = significant(first.time_s);
-        Some(printable(&format!("{}: at {time} s: {}{rest}", case_name(case), first.text)) + "\n")
-    });
-    let lines: Vec<String> = lines.collect();
-    let mut text = lines.iter().take(LIMITS).map(String::as_str).collect::<String>();
+        Some(format!("{}: at {time} s: {}{rest}", case_name(case), first.text))
+    };
+    cases.iter().filter_map(line).collect()
+}
+
+/// As many lines, one for each case, as a reader takes in.
+fn first_lines(lines: &[String]) -> String {
+    let mut text: String = lines.iter().take(LIMITS).map(|line| printable(line) + "\n").collect();
     if lines.len() > LIMITS {
-        text += &format!("and limits in {} more cases: see the report\n", lines.len() - LIMITS);
+        text += &format!("and {} more cases: see the report\n", lines.len() - LIMITS);
     }
-    if text.is_empty() { text } else { format!("\n{text}") }
+    text
 }
 
 /// The integration error in a line, if it was asked for.
@@ -123,14 +127,15 @@ fn compared(outcome: &Outcome, cases: &[CaseOutcome]) -> String {
     let mut text = comparison_rows(&comparison(outcome));
     let passed = cases.iter().filter(|case| case.passed).count();
     text += &format!("\n{passed} of {} cases pass\n", cases.len());
-    for case in cases {
+    let whys = cases.iter().filter_map(|case| {
         let why: Vec<_> = reason(&case.end).into_iter().chain(broken(&case.verdicts)).collect();
-        if !why.is_empty() {
-            text += &printable(&format!("{}: {}", case_name(case), why.join("; ")));
-            text.push('\n');
-        }
+        (!why.is_empty()).then(|| format!("{}: {}", case_name(case), why.join("; ")))
+    });
+    text += &first_lines(&whys.collect::<Vec<_>>());
+    let limits = limits_of_cases(cases);
+    if !limits.is_empty() {
+        text += &format!("\n{}", first_lines(&limits));
     }
-    text += &limits_of_cases(cases);
     if let Some(worst) = worst_ledger(cases) {
         let whose = format!(" (worst of the cases: {})", printable(&case_name(worst)));
         text += "\n";

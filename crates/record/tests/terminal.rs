@@ -79,14 +79,17 @@ fn each_of_several_cases_tells_its_first_limit_and_how_many_there_are_more() {
 }
 
 #[test]
-fn the_limits_of_many_cases_take_at_most_twelve_lines() {
+fn limits_and_failures_of_many_cases_take_at_most_twelve_lines_each() {
     let mut outcome = sample::compared();
     outcome.cases.extend(outcome.cases.clone());
     for case in &mut outcome.cases {
         let text = "wheel y full".into();
         case.events.push(Event { time_s: 2.0, kind: EventKind::Limit, text });
+        case.verdicts[0].pass = false;
+        case.verdicts[0].value = Some(0.7);
     }
     let table = verdict_table(&outcome);
     assert_eq!(table.matches(": at 2 s: wheel y full\n").count(), 12, "{table}");
-    assert!(table.contains("\nand limits in 6 more cases: see the report\n"), "{table}");
+    assert_eq!(table.matches(" fails with 0.7 mm\n").count(), 12, "{table}");
+    assert_eq!(table.matches("\nand 6 more cases: see the report\n").count(), 2, "{table}");
 }
