@@ -10,7 +10,7 @@ use crate::plan::{Plan, cannot_begin};
 use crate::quantity::Watch;
 use crate::read_base::Turning;
 use crate::saturations::{EquipmentLimits, MISSED, at_limits, describe};
-use crate::sensing::Sensing;
+use crate::sensing::{Refusals, Sensing};
 use crate::telemetry::Recorder;
 use wrasse_dynamics::{Payload, kinematics};
 use wrasse_flight::{Command, FlightComputer, Grip};
@@ -58,6 +58,7 @@ struct Flight<'a> {
     world: World<JOINTS>,
     computer: FlightComputer<f64, JOINTS>,
     sensing: Sensing,
+    refusals: Refusals,
     limits: EquipmentLimits,
     /// For each failure: whether it has happened, and whether the computer was told.
     failed: Vec<bool>,
@@ -202,6 +203,7 @@ impl<'a> Flight<'a> {
             computer: FlightComputer::new(case.setup, world.robot(), &case.flight_phases()),
             world,
             sensing: Sensing::new(case),
+            refusals: Refusals::default(),
             limits: EquipmentLimits::default(),
             failed: vec![false; case.failures.len()],
             told: vec![false; case.failures.len()],
@@ -351,7 +353,8 @@ impl<'a> Flight<'a> {
 
     /// Say how long limits were met, and which failures and wrenches the flight was too short for.
     fn sum_up(&mut self) {
-        for text in self.limits.summary(self.case) {
+        let met = self.limits.summary(self.case);
+        for text in met.into_iter().chain(self.refusals.summary()) {
             self.say(EventKind::Limit, text);
         }
         let end = self.world.time();
@@ -400,6 +403,11 @@ impl<'a> Flight<'a> {
         if self.sensing.blinded {
             let text = "the base turns too fast for its star tracker".into();
             self.tell_once(Passed::Blinded, text);
+        }
+        if let Some(estimate) = self.computer.navigation().attitude_estimate() {
+            for (passed, text) in self.refusals.note(estimate, self.world.time()) {
+                self.tell_once(passed, text);
+            }
         }
         let turned = self.turned();
         if self.case.base == BaseAttitude::Controlled && turned > LOST && !self.lost {

@@ -17,6 +17,8 @@ pub(crate) enum Passed {
     TorqueMissing,
     ForceMissing,
     Blinded,
+    ReadingRefused,
+    EstimatorRestarted,
     NoRelief,
     Singular,
 }

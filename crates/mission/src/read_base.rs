@@ -13,7 +13,9 @@ use wrasse_flight::steering::{
     Damping, GyroLaw, GyroSharing, Modulation, SteeringSetup, Unit, Unloading, Waves, WheelLaw,
     WheelSharing, preferred_angles,
 };
-use wrasse_flight::{BaseControlSetup, EstimatorSetup, Feedforward, NavigationSetup, PositionHold};
+use wrasse_flight::{
+    BaseControlSetup, EstimatorSetup, Feedforward, NavigationSetup, PositionHold, TRACKER_MEMORY,
+};
 use wrasse_hardware::{AttitudeActuator, Sensors};
 use wrasse_spatial::{SpatialForce, Vec3};
 use wrasse_vehicle::{Equipment, check_equipment, read_equipment, read_sensors};
@@ -244,6 +246,9 @@ pub(crate) fn navigation(
     let path = |key| [Step::Key("control"), Step::Key("estimation"), Step::Key(key)];
     let attitude_sigma = r.positive(&path("attitude_sigma_deg"), e.attitude_sigma_deg);
     let bias_sigma = r.positive(&path("bias_sigma_deg_h"), e.bias_sigma_deg_h);
+    if let Some((_, tracker)) = sensors.and_then(|s| s.attitude) {
+        check_latency(r, file, tracker.latency);
+    }
     NavigationSetup {
         attitude: sensors.and_then(|s| s.attitude).map(|(gyro, tracker)| EstimatorSetup {
             gyro,
@@ -254,6 +259,32 @@ pub(crate) fn navigation(
         joint_bandwidth: r.positive(&path("joint_bandwidth_rad_s"), e.joint_bandwidth_rad_s),
         quat_NB: attitude(r, at!["initial", "attitude"], file.initial.attitude),
     }
+}
+
+/// The estimator must reach back to when a star tracker's reading was taken.
+fn check_latency(r: &mut Reading<'_>, file: &MissionFile, latency: f64) {
+    let rate = file.control.rate_hz;
+    let memory = TRACKER_MEMORY as f64 / rate;
+    // Within round-off of the sum of periods, and for a rate that is one: any other is refused already.
+    if latency <= memory * (1.0 + 1e-12) || rate.is_nan() || rate <= 0.0 {
+        return;
+    }
+    let given = [Step::Key("sensors"), Step::Key("star_tracker"), Step::Key("latency_s")];
+    let path = match &file.sensors {
+        Some(_) if r.is_there(&given) => &given[..],
+        Some(_) => &given[..2],
+        None => at!["vehicle"],
+    };
+    let message = format!(
+        "the star tracker's readings are {latency} s old, and the attitude estimator reaches back \
+         {memory:.3} s: {TRACKER_MEMORY} control periods at {rate} Hz"
+    );
+    let slowest = TRACKER_MEMORY as f64 / latency;
+    let help = format!(
+        "it would refuse every reading: take a tracker that is faster, or control.rate_hz of at most \
+         {slowest:.1}"
+    );
+    r.error(path, message, &help);
 }
 
 /// Wrenches from outside.

@@ -250,6 +250,19 @@ fn fitted_actuators_and_sensors_must_be_there() {
     assert_refused(&bare("position_hold = { bandwidth_rad_s = 0.1 }"), "position_hold", &words);
 }
 
+/// The estimator reaches back 128 control periods: at 100 Hz a latency of 1.28 s is taken.
+#[test]
+fn a_star_tracker_that_is_later_than_the_estimator_remembers_is_refused() {
+    assert_says(
+        "rate_limit_deg_s = 1.0",
+        "latency_s = 1.3, rate_limit_deg_s = 1.0",
+        &["1.3 s old", "reaches back 1.280 s", "128 control periods at 100 Hz", "at most 98.5"],
+    );
+    let late = changed("rate_limit_deg_s = 1.0", "latency_s = 1.28, rate_limit_deg_s = 1.0");
+    let mission = answer(&late).unwrap_or_else(|c| panic!("{}", render(&c, false)));
+    assert!(mission.remarks.is_empty(), "{}", render(&mission.remarks, false));
+}
+
 #[test]
 fn a_gyro_without_a_star_tracker_is_refused() {
     let from = GOOD.find("star_tracker = ").expect("it is there");

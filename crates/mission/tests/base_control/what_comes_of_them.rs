@@ -283,3 +283,24 @@ fn what_the_flight_was_too_short_for_is_said() {
     assert_eq!(said(flown, "a wrench was to act from 9000 s on: the flight ended before").0, 50.0);
     assert!(flown.events.iter().all(|e| !e.text.contains("told to do without")));
 }
+
+/// A gyro whose bias is 50 deg/h where the estimator was told to expect 1 deg/h. Measured: refused from
+/// 3.51 s on, started again at 5.76 s, after ten readings of 4 a second.
+#[test]
+fn an_estimator_that_refuses_readings_and_starts_again_says_so() {
+    let text = text_of("noisy-tracker");
+    let text = text.split("[[compare]]").next().expect("there is a first part");
+    let text = text.replace("bias_deg_h = [0.5, -0.3, 0.2]", "bias_deg_h = [50.0, 0.0, 0.0]");
+    let law = "arm_law = \"attitude-held\"";
+    let flown =
+        fly(&text.replace(law, &format!("{law}\nestimation = {{ bias_sigma_deg_h = 1.0 }}")));
+    let flown = &flown.cases[0];
+    let (refused, _) =
+        said(flown, "the attitude estimator refuses a reading of the star tracker (1");
+    let (restart, _) = said(flown, "the attitude estimator starts again from the star tracker (1");
+    println!("refused at {refused} s, restarted at {restart} s");
+    assert!((refused - 3.51).abs() < 0.3 && (restart - 5.76).abs() < 0.3, "{refused} {restart}");
+    // It widens what it expects of the bias, and does not fail again.
+    said(flown, "10 in all, the first at");
+    said(flown, "1 in all, the first at");
+}
