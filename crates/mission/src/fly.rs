@@ -186,7 +186,8 @@ impl<'a> Flight<'a> {
         });
         world.command(&drives, Vec3::zero(), &ActuatorCommand::default(), period);
         if !case.wrenches.is_empty() {
-            world.set_outside_wrench(together(case.wrenches.clone()));
+            let (wrench, bends) = together(case.wrenches.clone());
+            world.set_outside_wrench(wrench, &bends);
         }
         let is_held = |i: &usize| matches!(case.payloads[*i].start, PayloadStart::Held(_));
         let payloads = 0..case.payloads.len();

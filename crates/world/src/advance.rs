@@ -44,13 +44,20 @@ impl<const J: usize> World<J> {
         self.check_free_bodies()
     }
 
-    /// The coming `period` (s) in stretches in which no thruster's force bends: steps that do not
-    /// reach over a bend keep their order. From now (s).
+    /// The coming `period` (s) in stretches in which no thruster's force and no outside wrench bends:
+    /// steps that do not reach over a bend keep their order. From now (s).
     fn stretches(&self, period: f64) -> Vec<(f64, f64)> {
         let now = self.into_period;
         let mut from = 0.0;
         let mut stretches = Vec::new();
-        for bend in self.thrusters.bends(now, now + period) {
+        let mut bends = self.thrusters.bends(now, now + period);
+        // A bend at an end of the period, but for the rounding of sums of periods, is no bend in it.
+        let near = 1e-9 * period;
+        let outside = self.outside_bends.iter().map(|bend| bend - self.period_start);
+        bends.extend(outside.filter(|t| *t > now + near && *t < now + period - near));
+        bends.sort_by(f64::total_cmp);
+        bends.dedup_by(|a, b| *a - *b < near);
+        for bend in bends {
             stretches.push((from, bend - now));
             from = bend - now;
         }

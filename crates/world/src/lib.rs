@@ -33,6 +33,6 @@ pub use ledger::{Account, Ledger};
 pub use noise::Noise;
 pub use propellant::Carried;
 pub use sensors::{SensorReadings, SensorSuite};
-pub use setup::{BaseAttitude, Drive, Equipment, OutsideWrench, WorldSetup};
+pub use setup::{BaseAttitude, Drive, Equipment, Instant, OutsideWrench, WorldSetup};
 pub use stepper::{Displacement, Stepper, dormand_prince, runge_kutta_4};
 pub use world::{SystemState, World};

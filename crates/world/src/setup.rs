@@ -25,10 +25,20 @@ pub enum Drive {
     Effort(f64),
 }
 
-/// A wrench from outside on each body at its origin, in its axes, as a function of time (s)
-/// and of how the bodies stand and move then.
+/// An instant that a wrench from outside is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Instant {
+    /// Time (s).
+    pub time: f64,
+    /// A time inside the stretch between two bends to which the instant belongs (s): at a bend itself
+    /// it tells before from after.
+    pub within: f64,
+}
+
+/// A wrench from outside on each body at its origin, in its axes, as a function of the instant and of
+/// how the bodies stand and move then.
 pub type OutsideWrench<const J: usize> =
-    Box<dyn Fn(f64, &Kinematics<'_, f64, J>) -> PerBody<SpatialForce<f64>, J> + Send + Sync>;
+    Box<dyn Fn(Instant, &Kinematics<'_, f64, J>) -> PerBody<SpatialForce<f64>, J> + Send + Sync>;
 
 /// The wheels, gyros and thrusters of the base, and how they stand at the start.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

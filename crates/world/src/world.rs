@@ -4,7 +4,7 @@ use crate::flow::Flow;
 use crate::free_body::FreeBody;
 use crate::gyros::Gyros;
 use crate::propellant::{Carried, InTank};
-use crate::setup::{BaseAttitude, Drive, Equipment, OutsideWrench, WorldSetup};
+use crate::setup::{BaseAttitude, Drive, Equipment, Instant, OutsideWrench, WorldSetup};
 use crate::stepper::{Displacement, Stepper};
 use crate::thrusters::Thrusters;
 use crate::wheels::Wheels;
@@ -94,6 +94,8 @@ pub struct World<const J: usize> {
     pub(crate) drives: [Drive; J],
     pub(crate) actuator_torque_B: Vec3<f64>,
     outside: Option<OutsideWrench<J>>,
+    /// Times at which it jumps or bends (s).
+    pub(crate) outside_bends: Vec<f64>,
     pub(crate) wheels: Wheels,
     pub(crate) gyros: Gyros,
     pub(crate) thrusters: Thrusters,
@@ -159,6 +161,7 @@ impl<const J: usize> World<J> {
             drives: [Drive::Effort(0.0); J],
             actuator_torque_B: Vec3::zero(),
             outside: None,
+            outside_bends: Vec::new(),
             wheels,
             gyros: Gyros::new(&equipment.actuators.gyros),
             thrusters: Thrusters::new(&equipment.actuators.thrusters, equipment.seed),
@@ -187,9 +190,11 @@ impl<const J: usize> World<J> {
         let inside_B = self.inside_B(&self.system);
         self.system.angular = h.angular + start.X_NB.rotation * inside_B;
     }
-    /// A wrench from outside that acts from now on.
-    pub fn set_outside_wrench(&mut self, outside: OutsideWrench<J>) {
+    /// A wrench from outside that acts from now on. At the times of its bends (s) it jumps, or changes
+    /// otherwise than smoothly: no step of the integrator reaches over them.
+    pub fn set_outside_wrench(&mut self, outside: OutsideWrench<J>, bends: &[f64]) {
         self.outside = Some(outside);
+        self.outside_bends = bends.to_vec();
     }
     /// Let a body float beside the vehicle; its number.
     pub fn add_free_body(&mut self, body: FreeBody) -> usize {
@@ -268,8 +273,9 @@ impl<const J: usize> World<J> {
         t: f64,
         k: &Kinematics<'_, f64, J>,
     ) -> PerBody<SpatialForce<f64>, J> {
+        let within = self.period_start + self.stretch_middle;
         match &self.outside {
-            Some(wrench) => wrench(self.period_start + t, k),
+            Some(wrench) => wrench(Instant { time: self.period_start + t, within }, k),
             None => PerBody::filled(SpatialForce::zero()),
         }
     }

@@ -8,7 +8,7 @@ use wrasse_dynamics::{BodyId, PerBody, Robot};
 use wrasse_hardware::{ActuatorCommand, AttitudeActuator, JointLimits};
 use wrasse_spatial::{Pose, SpatialForce, SpatialVelocity, Vec3, vec3};
 use wrasse_world::{
-    BaseAttitude, Drive, Equipment, FreeBody, NonFinite, Stepper, World, WorldSetup,
+    BaseAttitude, Drive, Equipment, FreeBody, Instant, NonFinite, Stepper, World, WorldSetup,
 };
 
 const STEPPERS: [Stepper; 2] =
@@ -47,11 +47,14 @@ const IDLE: [Drive; J] = [Drive::Effort(0.0); J];
 /// A world whose link 3 feels a torque of `bad` N·m from 0.155 s on.
 fn disturbed(stepper: Stepper, bad: f64) -> World<J> {
     let mut world = world(stepper, BaseAttitude::Free);
-    world.set_outside_wrench(Box::new(move |t, _| {
-        let mut on = PerBody::filled(SpatialForce::zero());
-        on[BodyId::Link(3)].torque.x = if t > 0.155 { bad } else { 0.1 };
-        on
-    }));
+    world.set_outside_wrench(
+        Box::new(move |Instant { time: t, .. }, _| {
+            let mut on = PerBody::filled(SpatialForce::zero());
+            on[BodyId::Link(3)].torque.x = if t > 0.155 { bad } else { 0.1 };
+            on
+        }),
+        &[],
+    );
     world
 }
 
@@ -117,11 +120,14 @@ fn a_base_without_joints_is_reported_by_its_attitude_and_a_held_one_by_its_momen
             [(BaseAttitude::Free, "attitude of the base"), (BaseAttitude::Held, "angular momentum")]
         {
             let mut world = World::new(&setup(&bare, stepper, base));
-            world.set_outside_wrench(Box::new(|_, _| {
-                let mut on = PerBody::filled(SpatialForce::zero());
-                on.base.torque.x = f64::NAN;
-                on
-            }));
+            world.set_outside_wrench(
+                Box::new(|_, _| {
+                    let mut on = PerBody::filled(SpatialForce::zero());
+                    on.base.torque.x = f64::NAN;
+                    on
+                }),
+                &[],
+            );
             assert_eq!(broken(&mut world, &IDLE, Vec3::zero()).quantity, quantity);
         }
     }

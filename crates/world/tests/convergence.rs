@@ -10,7 +10,7 @@ use wrasse_dynamics::{BodyId, PerBody, State};
 use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::{Quat, SpatialForce, Vec3, vec3};
 use wrasse_world::{
-    Account, BaseAttitude, Drive, Equipment, OutsideWrench, Stepper, World, WorldSetup,
+    Account, BaseAttitude, Drive, Equipment, Instant, OutsideWrench, Stepper, World, WorldSetup,
 };
 
 /// What a run ends with: where, how fast, and the momentum and energy summed over the bodies.
@@ -62,7 +62,7 @@ fn is_of_order_4(quantity: &str, slopes: [f64; 2]) {
 
 /// Wrenches from outside on three bodies, each with its own rhythm.
 fn pushed_and_twisted() -> OutsideWrench<J> {
-    Box::new(|t, _| {
+    Box::new(|Instant { time: t, .. }, _| {
         let mut on = PerBody::filled(SpatialForce::zero());
         on[BodyId::Base] = SpatialForce::new(
             vec3(0.8 * (1.3 * t).sin(), -0.5, 0.3 * (2.0 * t).cos()),
@@ -130,7 +130,7 @@ fn joints_that_follow_beside_joints_driven_by_force_move_with_order_4() {
 fn momentum_given_from_outside_arrives_with_order_4() {
     let run = |h| {
         let mut world = branched::world(moving(), BaseAttitude::Free, h);
-        world.set_outside_wrench(pushed_and_twisted());
+        world.set_outside_wrench(pushed_and_twisted(), &[]);
         end(world, &EFFORTS, SPAN)
     };
     let [attitude, positions, rates, energy, linear, angular] = slopes(FINEST, run);
@@ -240,12 +240,15 @@ fn a_step_that_meets_a_sudden_push_is_taken_back() {
             start: moving(),
             held: &[],
         });
-        world.set_outside_wrench(Box::new(|t, _| {
-            let mut on = PerBody::filled(SpatialForce::zero());
-            let late = (t - 1.0) / 0.03;
-            on[BodyId::Link(1)].force.y = 20.0 * (-late * late).exp();
-            on
-        }));
+        world.set_outside_wrench(
+            Box::new(|Instant { time: t, .. }, _| {
+                let mut on = PerBody::filled(SpatialForce::zero());
+                let late = (t - 1.0) / 0.03;
+                on[BodyId::Link(1)].force.y = 20.0 * (-late * late).exp();
+                on
+            }),
+            &[],
+        );
         end(world, &[Drive::Effort(0.0); J], SPAN)
     };
     let tolerance = 1e-9;

@@ -11,7 +11,7 @@ use wrasse_dynamics::{BodyId, Frame, Payload, PerBody, Robot};
 use wrasse_hardware::List;
 use wrasse_spatial::{Pose, SpatialForce, SpatialVelocity, Vec3, vec3};
 use wrasse_world::{
-    BaseAttitude, Drive, Equipment, Failure, FreeBody, Ledger, Stepper, World, WorldSetup,
+    BaseAttitude, Drive, Equipment, Failure, FreeBody, Instant, Ledger, Stepper, World, WorldSetup,
 };
 
 const EFFORTS: [f64; J] = [0.9, -0.5, 0.7, -0.3];
@@ -37,13 +37,16 @@ fn setup<'a>(
 
 fn world(equipment: &Equipment, stepper: Stepper) -> World<J> {
     let mut world = World::new(&setup(&robot(), equipment, stepper, &[(grip(), load())]));
-    world.set_outside_wrench(Box::new(|t, k| {
-        // A force that keeps its direction in inertial axes, on a body that turns.
-        let mut on = PerBody::filled(SpatialForce::zero());
-        let force = k.X_NB[BodyId::Link(2)].rotation.transpose_mul(vec3(0.5, t, -0.4));
-        on[BodyId::Link(2)] = SpatialForce::new(vec3(0.0, -0.2, 0.1), force);
-        on
-    }));
+    world.set_outside_wrench(
+        Box::new(|Instant { time: t, .. }, k| {
+            // A force that keeps its direction in inertial axes, on a body that turns.
+            let mut on = PerBody::filled(SpatialForce::zero());
+            let force = k.X_NB[BodyId::Link(2)].rotation.transpose_mul(vec3(0.5, t, -0.4));
+            on[BodyId::Link(2)] = SpatialForce::new(vec3(0.0, -0.2, 0.1), force);
+            on
+        }),
+        &[],
+    );
     let V = SpatialVelocity::from_array([0.1, 0.2, -0.1, 0.1, 0.0, -0.2]);
     world.add_free_body(FreeBody::new(load(), &Pose::identity(), &V));
     world
@@ -103,7 +106,7 @@ fn wheels_and_gyros_keep_momentum_to_rounding_at_any_step() {
         let mut equipment = everything(1);
         equipment.actuators.thrusters = List::empty();
         let mut world = world(&equipment, Stepper::Fixed { step });
-        world.set_outside_wrench(Box::new(|_, _| PerBody::filled(SpatialForce::zero())));
+        world.set_outside_wrench(Box::new(|_, _| PerBody::filled(SpatialForce::zero())), &[]);
         let mut ledger = world.open_ledger();
         for i in 0..40 {
             world.command(&EFFORTS.map(Drive::Effort), Vec3::zero(), &busy(i), PERIOD);

@@ -4,7 +4,7 @@
 use wrasse_dynamics::{Payload, PerBody, Robot, State};
 use wrasse_hardware::ActuatorCommand;
 use wrasse_spatial::{Mat3, Pose, Quat, SpatialForce, SpatialVelocity, Sym3, Vec3, vec3};
-use wrasse_world::{BaseAttitude, Equipment, FreeBody, Stepper, World, WorldSetup};
+use wrasse_world::{BaseAttitude, Equipment, FreeBody, Instant, Stepper, World, WorldSetup};
 
 /// Where the bodies are at the start: in no special place.
 fn X_NT() -> Pose<f64> {
@@ -200,11 +200,14 @@ fn the_books_close_over_a_vehicle_that_is_pushed_beside_a_free_body() {
             held: &[],
         });
         world.add_free_body(tumbling());
-        world.set_outside_wrench(Box::new(|t, _| {
-            let mut on = PerBody::filled(SpatialForce::zero());
-            on.base = SpatialForce::new(vec3(0.5, -0.2 * t, 0.3), vec3(3.0, 2.0 * t, -4.0));
-            on
-        }));
+        world.set_outside_wrench(
+            Box::new(|Instant { time: t, .. }, _| {
+                let mut on = PerBody::filled(SpatialForce::zero());
+                on.base = SpatialForce::new(vec3(0.5, -0.2 * t, 0.3), vec3(3.0, 2.0 * t, -4.0));
+                on
+            }),
+            &[],
+        );
         let mut ledger = world.open_ledger();
         for _ in 0..20 {
             world.command(&[], Vec3::zero(), &ActuatorCommand::default(), 0.5);

@@ -7,7 +7,7 @@ use branched::{J, moving};
 use wrasse_dynamics::{BodyId, PerBody, State};
 use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::{SpatialForce, Vec3, vec3};
-use wrasse_world::{BaseAttitude, Drive, Equipment, Ledger, Stepper, World, WorldSetup};
+use wrasse_world::{BaseAttitude, Drive, Equipment, Instant, Ledger, Stepper, World, WorldSetup};
 
 /// Length of a control period, and of the steps in it (s): powers of two, so that parts of the
 /// period add up to it exactly.
@@ -33,11 +33,15 @@ fn world(stepper: Stepper) -> World<J> {
         start: moving(),
         held: &[],
     });
-    world.set_outside_wrench(Box::new(|t, _| {
-        let mut on = PerBody::filled(SpatialForce::zero());
-        on[BodyId::Link(2)] = SpatialForce::new(vec3(0.3 * t, -0.2, 0.1), vec3(0.5, t * t, -0.4));
-        on
-    }));
+    world.set_outside_wrench(
+        Box::new(|Instant { time: t, .. }, _| {
+            let mut on = PerBody::filled(SpatialForce::zero());
+            on[BodyId::Link(2)] =
+                SpatialForce::new(vec3(0.3 * t, -0.2, 0.1), vec3(0.5, t * t, -0.4));
+            on
+        }),
+        &[],
+    );
     world
 }
 
