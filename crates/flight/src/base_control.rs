@@ -61,21 +61,24 @@ impl<T: Scalar> BaseControl<T> {
     }
 
     /// Torque that the base should feel (N·m, base axes) and what the actuators are told. `M_B` is the
-    /// inertia of the whole system with joints locked, `ahead_B` what is known to be needed (N·m).
+    /// inertia of the whole system with joints locked, `ahead_B` what is known to be needed (N·m, N).
     pub(crate) fn command<const J: usize>(
         &mut self,
         robot: &Robot<T, J>,
         tuning: &Tuning<T>,
         M_B: &SpatialInertia<T>,
         sensed: &State<T, J>,
-        ahead_B: Vec3<T>,
+        ahead_B: &SpatialForce<T>,
         readings: &ActuatorReadings<T>,
     ) -> (Vec3<T>, Steered<T>) {
         let quat_NB = Quat::from_matrix(&sensed.X_NB.rotation);
         let w_NB_B = sensed.V_NB_B.angular;
         let (I, quat_ND) = (M_B.central(), &self.setup.quat_ND);
-        let torque_B = ahead_B + attitude_torque(tuning, &I, &quat_NB, w_NB_B, quat_ND);
-        let force_B = self.holding_force(robot, sensed, tuning.period);
+        let torque_B = ahead_B.torque + attitude_torque(tuning, &I, &quat_NB, w_NB_B, quat_ND);
+        let mut force_B = self.holding_force(robot, sensed, tuning.period);
+        if self.holds_position() {
+            force_B += ahead_B.force;
+        }
         let steered = match &mut self.steering {
             None => Steered::nothing(),
             Some(steering) => {
@@ -85,6 +88,11 @@ impl<T: Scalar> BaseControl<T> {
             }
         };
         (torque_B, steered)
+    }
+
+    /// Whether the centre of mass is kept in its place.
+    pub(crate) fn holds_position(&self) -> bool {
+        self.setup.position_hold.is_some()
     }
 
     /// Force that brings the centre of mass back to where it was, base axes (N).

@@ -4,7 +4,7 @@ use crate::base_control::{BaseControl, BaseControlSetup};
 use crate::computed_torque::computed_torque;
 use crate::door::{Axes, Command, Grip, Sensed};
 use crate::feedforward::feedforward_torque;
-use crate::law::{Measurement, Tuning};
+use crate::law::{ArmLaw, Measurement, Tuning};
 use crate::navigation::{Navigation, NavigationSetup};
 use crate::phase::{Held, JointTarget, Path, Phase};
 use crate::resolved_motion::{
@@ -413,14 +413,18 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         } else {
             let (law, robot) = (self.setup.assignment.law, &self.robot);
             effort = computed_torque(robot, law, &tuning, &ahead, &middle, &acceleration);
-            let mut ahead_B = feedforward_torque(robot, self.setup.base.feedforward, &middle);
+            let reaction_B = feedforward_torque(robot, self.setup.base.feedforward, &middle);
+            let mut ahead_B = SpatialForce::new(reaction_B, Vec3::zero());
             if let Some(F_E) = &self.tool_wrench_E {
                 let tool = &self.setup.assignment.tool;
-                let (against, turning_B) = against_tool_wrench(robot, law, tool, state, F_E);
+                // A base that is held in its place stands as if it were bolted down.
+                let held = self.base_control.holds_position();
+                let law = if held { ArmLaw::Terrestrial } else { law };
+                let (against, on_base_B) = against_tool_wrench(robot, law, tool, state, F_E);
                 for j in robot.joints() {
                     effort[j] += against[j];
                 }
-                ahead_B += turning_B;
+                ahead_B += on_base_B;
             }
             let M_B = self.locked_inertia();
             (attitude_torque_B, steered) = self.base_control.command(
@@ -428,7 +432,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
                 &tuning,
                 &M_B,
                 state,
-                ahead_B,
+                &ahead_B,
                 &sensed.actuators,
             );
         }

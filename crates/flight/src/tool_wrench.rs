@@ -5,14 +5,14 @@ use wrasse_dynamics::{
     Frame, Robot, State, attitude_held_jacobian, generalized_jacobian, jacobian, kinematics,
     mass_matrix,
 };
-use wrasse_spatial::{Real, SpatialForce, Vec3};
+use wrasse_spatial::{Real, SpatialForce};
 
-/// Joint torques (N·m, N) and torque on the base (N·m, base axes) that keep joints and attitude from
-/// giving way to a wrench on the tool: `τ = -Jᵀ F` with the Jacobian of the law, and the opposite of
-/// the wrench's torque about the system's centre of mass. The base still goes where the force pushes.
+/// Joint torques (N·m, N) that keep the joints from giving way to a wrench on the tool, `τ = -Jᵀ F`
+/// with the Jacobian of the law, and what keeps the base from turning and from going where it is
+/// pushed: the opposite of the wrench about the system's centre of mass (N·m, N, base axes).
 ///
-/// `F_E` is at the tool's origin, in its axes. A free-floating law lets the base turn: it needs the
-/// joint torques alone.
+/// `F_E` is at the tool's origin, in its axes. An attitude-held law needs the torque and lets the base
+/// go with the force, a terrestrial one needs the force too, a free-floating one neither.
 ///
 /// # Source
 /// [`UmetaniYoshida1989`](wrasse_spatial::references::UmetaniYoshida1989) for the generalized Jacobian;
@@ -23,7 +23,7 @@ pub fn against_tool_wrench<T: Real, const J: usize>(
     tool: &Frame<T>,
     state: &State<T, J>,
     F_E: &SpatialForce<T>,
-) -> ([T; J], Vec3<T>) {
+) -> ([T; J], SpatialForce<T>) {
     let k = kinematics(robot, state);
     let (M, J_NE) = (mass_matrix(&k), jacobian(&k, tool));
     let R_NB = &state.X_NB.rotation;
@@ -36,5 +36,7 @@ pub fn against_tool_wrench<T: Real, const J: usize>(
     let F_N = SpatialForce::new(X_NE.rotation * F_E.torque, X_NE.rotation * F_E.force);
     let lever = X_NE.translation - k.centre_of_mass().1;
     let torque_N = F_N.torque + lever.cross(F_N.force);
-    (columns.map(|column| -column.power(&F_N)), -R_NB.transpose_mul(torque_N))
+    let on_base_B =
+        SpatialForce::new(R_NB.transpose_mul(-torque_N), R_NB.transpose_mul(-F_N.force));
+    (columns.map(|column| -column.power(&F_N)), on_base_B)
 }

@@ -1,6 +1,7 @@
 //! One case flown: the flight computer and the world, a control period at a time.
 
 use crate::applied_wrench::together;
+use crate::dead_band::DeadBand;
 use crate::limits_passed::{Passed, limits_passed};
 use crate::mission::{Case, PayloadStart};
 use crate::observe::{Observation, Track, observe};
@@ -60,6 +61,7 @@ struct Flight<'a> {
     sensing: Sensing,
     refusals: Refusals,
     limits: EquipmentLimits,
+    dead_band: DeadBand,
     /// For each failure: whether it has happened, and whether the computer was told.
     failed: Vec<bool>,
     told: Vec<bool>,
@@ -206,6 +208,7 @@ impl<'a> Flight<'a> {
             sensing: Sensing::new(case),
             refusals: Refusals::default(),
             limits: EquipmentLimits::default(),
+            dead_band: DeadBand::default(),
             failed: vec![false; case.failures.len()],
             told: vec![false; case.failures.len()],
             weighed: case.equipment.actuators.tank.map_or(0.0, |tank| tank.propellant),
@@ -389,6 +392,10 @@ impl<'a> Flight<'a> {
                 );
                 self.tell_once(kind, text);
             }
+        }
+        let time = self.world.time();
+        if let Some(text) = self.dead_band.note(self.case, command, time) {
+            self.tell_once(Passed::DeadBand, text);
         }
         if command.steering.unloading != self.unloads {
             self.unloads = command.steering.unloading;

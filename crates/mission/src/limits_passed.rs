@@ -20,6 +20,7 @@ pub(crate) enum Passed {
     ReadingRefused,
     EstimatorRestarted,
     NoRelief,
+    DeadBand,
     Singular,
 }
 

@@ -107,7 +107,7 @@ pub(crate) fn observe(
         },
         reaction_B,
         stored_B: match case.turning {
-            Turning::Fitted => command.steering.stored_B,
+            Turning::Fitted => stored(case, &world.actuator_readings()),
             Turning::Ideal(_) => world.stored_momentum_B(),
         },
         readings: world.actuator_readings(),
@@ -132,6 +132,13 @@ pub(crate) fn observe(
         seen.values.push(seen.dynamics.force.joints[j]);
     }
     seen
+}
+
+/// Momentum in wheels and gyros beside the base (N·m·s, base axes).
+fn stored(case: &Case, readings: &ActuatorReadings<f64>) -> Vec3<f64> {
+    let actuators = &case.equipment.actuators;
+    actuators.gyro_momentum(&readings.gimbal_angle)
+        + actuators.wheel_momentum(&readings.wheel_speed)
 }
 
 /// Whether the fitted equipment can take up momentum.

@@ -200,7 +200,7 @@ impl<T: Scalar> Steering<T> {
             self.before = Some((stored_B, due_B * needs.period));
             steered.command.wheel_torque = wheels;
             steered.command.gimbal_rate = gyros;
-            missing.torque = missing_B;
+            missing.torque = self.of_what_is_wanted(missing_B, needs.period);
         }
         steered.report = SteeringReport {
             wanted: needs.wanted,
@@ -243,6 +243,23 @@ impl<T: Scalar> Steering<T> {
         }
     }
 
+    /// How fast what is owed is asked for (1/s).
+    fn catch_up(period: T) -> T {
+        T::from_f64(CATCH_UP).min(T::one() / period)
+    }
+
+    /// What is missing of what is wanted now (N·m): what is owed comes after that.
+    fn of_what_is_wanted(&self, missing_B: Vec3<T>, period: T) -> Vec3<T> {
+        let without_debt_B = missing_B + self.owed_B * Self::catch_up(period);
+        if without_debt_B.dot(missing_B) <= T::zero() {
+            Vec3::zero()
+        } else if without_debt_B.norm() < missing_B.norm() {
+            without_debt_B
+        } else {
+            missing_B
+        }
+    }
+
     /// Torque on the bodies by what turns inside them: motor torques of the wheels (N·m), gimbal rates
     /// (rad/s), and what of the torque they cannot give.
     fn inside(
@@ -254,8 +271,8 @@ impl<T: Scalar> Steering<T> {
     ) -> ([T; WHEELS], [T; GYROS], Vec3<T>) {
         let setup = &self.setup;
         let Actuators { wheels, gyros, .. } = &setup.actuators;
-        let catch_up = T::from_f64(CATCH_UP).min(T::one() / needs.period);
-        let mut left_B = due(torque_B, needs, stored_B) + self.owed_B * catch_up;
+        let mut left_B =
+            due(torque_B, needs, stored_B) + self.owed_B * Self::catch_up(needs.period);
         let mut rates = [T::zero(); GYROS];
         let mut torques = [T::zero(); WHEELS];
         if !gyros.is_empty() {

@@ -10,12 +10,12 @@ use wrasse_spatial::{SpatialForce, Vec3, vec3};
 fn answer(law: ArmLaw, mode: BaseMode, with_base_torque: bool) -> (f64, Vec3<f64>) {
     let (robot, (_, tool), state) = (robot(), atlas_class(), at_rest());
     let F_E = SpatialForce::new(vec3(3.0, -7.0, 5.0), vec3(40.0, 200.0, -90.0));
-    let (effort, torque_B) = against_tool_wrench(&robot, law, &tool, &state, &F_E);
+    let (effort, on_base_B) = against_tool_wrench(&robot, law, &tool, &state, &F_E);
     let at_body = tool.X_BF.force_to_parent(&F_E);
     let mut on_bodies = PerBody::filled(SpatialForce::zero());
     on_bodies[tool.body] = at_body;
     if with_base_torque {
-        on_bodies.base.torque += torque_B;
+        on_bodies.base.torque += on_base_B.torque;
     }
     let drives = effort.map(JointDrive::Effort);
     let found = driven_dynamics(&kinematics(&robot, &state), &drives, mode, &on_bodies);
