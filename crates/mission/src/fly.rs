@@ -67,6 +67,8 @@ struct Flight<'a> {
     told: Vec<bool>,
     /// Propellant when the computer was last told (kg).
     weighed: f64,
+    /// Whether the tank was said to be empty.
+    dry: bool,
     /// Whether the attitude was lost.
     lost: bool,
     /// Whether thrusters empty wheels and gyros.
@@ -212,6 +214,7 @@ impl<'a> Flight<'a> {
             failed: vec![false; case.failures.len()],
             told: vec![false; case.failures.len()],
             weighed: case.equipment.actuators.tank.map_or(0.0, |tank| tank.propellant),
+            dry: false,
             lost: false,
             unloads: false,
             estimate_error: f64::NAN,
@@ -322,6 +325,11 @@ impl<'a> Flight<'a> {
     /// Tell the computer what it is made of once enough propellant has gone: its gauge says so.
     fn weigh_propellant(&mut self) {
         let left = self.world.actuator_readings().propellant;
+        if self.case.equipment.actuators.tank.is_some() && left <= 0.0 && !self.dry {
+            self.dry = true;
+            let text = describe(self.case, Saturation::TankEmpty);
+            self.say(EventKind::Limit, text);
+        }
         if (self.weighed - left).abs() > NOTICED * self.world.robot().mass() {
             self.weighed = left;
             self.computer.robot_changed(self.world.robot());
@@ -394,7 +402,7 @@ impl<'a> Flight<'a> {
             }
         }
         let time = self.world.time();
-        if let Some(text) = self.dead_band.note(self.case, command, time) {
+        if let Some(text) = self.dead_band.note(self.case, command, time).filter(|_| !self.dry) {
             self.tell_once(Passed::DeadBand, text);
         }
         if command.steering.unloading != self.unloads {

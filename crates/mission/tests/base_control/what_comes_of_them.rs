@@ -50,11 +50,16 @@ fn the_missions_that_should_fail_fail_and_the_others_meet_their_requirements() {
 
 #[test]
 fn where_the_actuators_are_enough_nothing_is_said_but_the_phases() {
-    for name in ["wheels", "gyros", "thrusters"] {
-        let others: Vec<_> =
-            case(name, "").events.iter().filter(|e| e.kind != EventKind::Phase).collect();
-        assert!(others.is_empty(), "{name}: {others:?}");
+    let others = |name| {
+        let events = case(name, "").events.iter().filter(|e| e.kind != EventKind::Phase);
+        events.map(|e| e.text.as_str()).collect::<Vec<_>>()
+    };
+    for name in ["wheels", "gyros"] {
+        assert!(others(name).is_empty(), "{name}: {:?}", others(name));
     }
+    // Thrusters have a dead band, and say so.
+    let thrusters = others("thrusters");
+    assert!(thrusters.iter().all(|text| text.contains("stay shut")), "{thrusters:?}");
 }
 
 /// Measured: tool off by at most 8.8e-10 m and base by 3.2e-7 deg with wheels, 9.9e-7 m and 1.7e-4 deg
@@ -71,7 +76,7 @@ fn wheels_hold_the_base_of_the_empty_arm_and_gyros_that_of_a_laden_one() {
     about(metric(gyros, "attitude.momentum.max"), 12.18, 0.01);
 }
 
-/// 290 N·s pull at the tool; the thrusters give them back, and a little more to turn. Measured: 0.1330 kg,
+/// 290 N·s pull at the tool; the thrusters give them back, and a little more to turn. Measured: 0.1302 kg,
 /// where the pull alone takes 0.1289 kg at a specific impulse of 229.5 s.
 #[test]
 fn thrusters_give_back_the_pull_and_their_propellant_is_worth_its_impulse() {
@@ -83,8 +88,8 @@ fn thrusters_give_back_the_pull_and_their_propellant_is_worth_its_impulse() {
     let used = metric(flown, "thrusters.propellant_used.final");
     println!("{used} kg, at least {least} kg");
     assert!(used > least && used < 1.1 * least, "{used} kg of at least {least} kg");
-    about(degrees(flown, "base.rotation.max"), 0.0960, 0.2);
-    about(metric(flown, "base.translation.max"), 0.01166, 0.1);
+    about(degrees(flown, "base.rotation.max"), 0.1177, 0.2);
+    about(metric(flown, "base.translation.max"), 0.00125, 0.1);
 }
 
 /// Measured: wheel w2 is the first at 0.47 s; torque is missing for 37.9 s, up to 17.1 N·m; the base is 5 deg
@@ -162,22 +167,22 @@ fn a_stuck_gimbal_stands_still_and_the_tool_lands_whether_the_computer_is_told_o
     }
 }
 
-/// Measured: dry at 28.02 s, attitude lost at 34.61 s, 13.5 deg off at the end.
+/// Measured: dry at 27.98 s, attitude lost at 34.53 s, 13.8 deg off at the end.
 #[test]
 fn a_tank_that_runs_dry_says_when_and_that_attitude_control_was_lost() {
     let flown = case("tank-empty", "");
     let (dry, _) = said(flown, "the tank is empty: thrusters give nothing");
     let (lost, _) = said(flown, "attitude control lost: the base stands 5.0");
     println!("dry at {dry} s, lost at {lost} s");
-    assert!((dry - 28.02).abs() < 0.1 && (lost - 34.61).abs() < 0.2, "{dry} {lost}");
+    assert!((dry - 27.98).abs() < 0.1 && (lost - 34.53).abs() < 0.2, "{dry} {lost}");
     let used = channel(flown, "thrusters.propellant_used");
     let time = &flown.telemetry.time;
     let empty = time.iter().position(|&t| t > dry + 0.05).expect("it goes on");
     assert!(used[empty..].iter().all(|&grams| grams == 100.0), "{:?}", &used[empty..]);
     assert!(used[empty - 3] < 100.0);
-    let (_, sum) = said(flown, "in all 11.56 s, the first time at 28.02 s: the tank is empty");
-    assert!(sum.contains("the base stood up to 13.5"), "{sum}");
-    about(degrees(flown, "base.rotation.max"), 13.54, 0.02);
+    let (_, sum) = said(flown, "in all 12.02 s, the first time at 27.98 s: the actuators");
+    assert!(sum.contains("the base stood up to 13.78"), "{sum}");
+    about(degrees(flown, "base.rotation.max"), 13.80, 0.02);
 }
 
 /// Measured: gyros fill to 15.07 N·m·s at most and are emptied five times, to just under 5.
