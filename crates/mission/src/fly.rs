@@ -1,6 +1,6 @@
 //! One case flown: the flight computer and the world, a control period at a time.
 
-use crate::applied_wrench::together;
+use crate::case_world::world_of;
 use crate::dead_band::DeadBand;
 use crate::limits_passed::{Passed, limits_passed};
 use crate::mission::{Case, PayloadStart};
@@ -15,10 +15,10 @@ use crate::sensing::{Refusals, Sensing};
 use crate::telemetry::Recorder;
 use wrasse_dynamics::{Payload, kinematics};
 use wrasse_flight::{Command, FlightComputer, Grip};
-use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
+use wrasse_hardware::{SetPoint, SetPointMotion};
 use wrasse_spatial::{Pose, Quat, Vec3};
 use wrasse_vehicle::JOINTS;
-use wrasse_world::{BaseAttitude, Drive, Equipment, Saturation, Stepper, World, WorldSetup};
+use wrasse_world::{BaseAttitude, Drive, Saturation, Stepper, World};
 
 /// What a flight leaves behind.
 #[derive(Debug)]
@@ -39,19 +39,6 @@ const NOTICED: f64 = 1e-4;
 
 /// Angle from which on the attitude counts as lost (rad): 5 deg, where a tool 1 m out is 9 cm off.
 const LOST: f64 = 0.0873;
-
-/// What the world is told of the wheels, gyros and thrusters of a case.
-fn equipment(case: &Case) -> Equipment {
-    if case.base == BaseAttitude::Held {
-        return Equipment::default();
-    }
-    Equipment {
-        actuators: case.equipment.actuators,
-        wheel_speed: case.equipment.wheel_speed,
-        gimbal_angle: case.equipment.gimbal_angle,
-        seed: case.seed,
-    }
-}
 
 /// A flight under way.
 struct Flight<'a> {
@@ -161,38 +148,7 @@ fn is_snapshot(done: u64, all: u64, count: u32) -> bool {
 
 impl<'a> Flight<'a> {
     fn new(case: &'a Case, stepper: Stepper) -> Self {
-        let held = case.held_at_start();
-        let mut world = World::new(&WorldSetup {
-            robot: &case.vehicle.robot,
-            limits: &case.vehicle.limits,
-            actuator: match case.turning {
-                Turning::Ideal(actuator) => actuator,
-                Turning::Fitted => None,
-            },
-            equipment: equipment(case),
-            base: case.base,
-            stepper,
-            start: case.start,
-            held: &held,
-        });
-        // Prescribed joints keep their rates from the first instant on.
-        let (start, period) = (case.start, case.period());
-        let drives: [Drive; JOINTS] = core::array::from_fn(|j| {
-            let at = |t: f64| SetPoint {
-                position: start.q[j] + start.v[j] * t,
-                rate: start.v[j],
-                acceleration: 0.0,
-            };
-            if case.torque[j] {
-                return Drive::Effort(0.0);
-            }
-            Drive::Follow(SetPointMotion::between(at(0.0), at(period), period))
-        });
-        world.command(&drives, Vec3::zero(), &ActuatorCommand::default(), period);
-        if !case.wrenches.is_empty() {
-            let (wrench, bends) = together(case.wrenches.clone());
-            world.set_outside_wrench(wrench, &bends);
-        }
+        let mut world = world_of(case, stepper);
         let is_held = |i: &usize| matches!(case.payloads[*i].start, PayloadStart::Held(_));
         let payloads = 0..case.payloads.len();
         let floats = |i| (!is_held(&i)).then(|| world.add_free_body(case.free_body(i)));

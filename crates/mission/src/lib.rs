@@ -5,6 +5,7 @@ mod applied_wrench;
 mod arm_shape;
 mod base_format;
 mod books;
+mod case_world;
 mod dead_band;
 mod fly;
 mod format;
