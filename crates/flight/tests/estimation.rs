@@ -451,7 +451,6 @@ fn a_filter_that_was_told_of_too_small_a_bias_widens_and_settles() {
     let estimate = truth.run(&mut filter, 1500);
     let off = (estimate.bias_B - truth.bias_B).norm() / degree_per_hour;
     let turned = truth.error(&estimate).norm() / estimate.sigma;
-    println!("{} then {} restarts, {off} deg/h, {turned} sigma", first.restarts, estimate.restarts);
     assert_eq!((first.restarts, estimate.restarts), (2, 2));
     assert_eq!(first.refused, estimate.refused, "nothing is refused once it has settled");
     assert!(off < 2.0 && turned < 4.0, "{off} deg/h, {turned} sigma");

@@ -535,7 +535,6 @@ fn the_clock_of_the_waves_never_stalls() {
         count += i32::from(next < time);
         (time, most) = (next, most.max(next.abs()));
     }
-    println!("{count} waves, at most {most} s");
     // Each step rounds by up to 1.2e-7 s, half a wave in 1e6 steps: measured 2,500 waves.
     assert!((count - 2500).abs() <= 1, "{count}");
     assert!(most <= 2.0 + 1e-6, "half a wave: {most}");

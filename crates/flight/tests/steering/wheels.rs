@@ -325,7 +325,6 @@ fn at_the_limit(known: f64) -> (f64, f64) {
 #[test]
 fn a_wheel_at_its_speed_limit_does_not_chatter() {
     let (blind, with) = (at_the_limit(1e-9), at_the_limit(PERIOD));
-    println!("{blind:?} {with:?}");
     // Measured: changes of 2.93 N·m in sum and 0.0133 N·m off without the period; 0.0153 N·m, from the
     // share of 0.0173 N·m to the drag of 0.002 N·m, and 3.9e-18 N·m off with it.
     assert!(blind.0 > 1.0 && blind.1 > 0.01, "{blind:?}");
