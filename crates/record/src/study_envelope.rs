@@ -12,6 +12,10 @@ use crate::numbers::significant;
 const HALF: f64 = 2300.0;
 /// How far the surfaces reach from the middle of a view (SVG units).
 const REACH: f64 = 1650.0;
+/// About how wide the name of an axis and a figure on it are, and how high (SVG units).
+const NAME: f64 = 480.0;
+const FIGURE: f64 = 230.0;
+const LINE: f64 = 110.0;
 /// Azimuth and elevation of the eye (rad).
 const EYE: [f64; 2] = [-0.95, 0.42];
 /// Shades from away from the light to facing it.
@@ -196,10 +200,12 @@ fn axes(view: &View, size: f64) -> String {
     for (name, unit) in ["x", "y", "z"].iter().zip(units) {
         let ([x, y], [to_x, to_y]) = (view.place(unit * -far), view.place(unit * far));
         svg += &format!("<path class=\"axle\" d=\"M{x:.0} {y:.0}L{to_x:.0} {to_y:.0}\"/>");
-        let label = view.place(unit * (1.3 * size));
-        let [x, y] = label;
+        let [x, y] = view.place(unit * (1.23 * size));
+        // The name of an upright axis stands on its end, others begin there.
+        let label = if x > HALF + 1.0 { [x, y] } else { [x - 0.5 * NAME, y] };
         svg += &format!(
-            "<text class=\"axis\" x=\"{x:.0}\" y=\"{y:.0}\" text-anchor=\"middle\">{name} (N·m·s)</text>\n"
+            "<text class=\"axis\" x=\"{:.0}\" y=\"{y:.0}\">{name} (N·m·s)</text>\n",
+            label[0]
         );
         for value in marks(-far, far, step).filter(|value| value.abs() > 0.5 * step) {
             let [x, y] = view.place(unit * value);
@@ -218,10 +224,9 @@ fn axes(view: &View, size: f64) -> String {
     svg
 }
 
-/// Whether a figure that begins here would touch the name of an axis that is centred there.
+/// Whether a figure that begins here would touch the name of an axis that begins there.
 fn is_under([x, y]: [f64; 2], figure: [f64; 2]) -> bool {
-    // The name is some 480 wide, a figure some 200, both some 110 high.
-    (-480.0..260.0).contains(&(figure[0] - x)) && (figure[1] - y).abs() < 120.0
+    (-FIGURE..NAME).contains(&(figure[0] - x)) && (figure[1] - y).abs() < 1.5 * LINE
 }
 
 /// What a task asks for, as a line from its first to its last point.
@@ -272,6 +277,30 @@ mod tests {
 
     fn faces(group: &str) -> usize {
         group.split("/>").next().unwrap_or_default().matches('z').count()
+    }
+
+    #[test]
+    fn no_figure_of_an_axis_touches_the_name_of_an_axis() {
+        let starts = |svg: &str, class: &str| -> Vec<[f64; 2]> {
+            let number = |text: &str, key: &str| {
+                let rest = text.split(key).nth(1).unwrap_or_default();
+                rest.split('"').next().and_then(|n| n.parse().ok()).unwrap_or(f64::NAN)
+            };
+            let mark = format!("<text class=\"{class}\"");
+            let texts = svg.split(&mark).skip(1);
+            texts.map(|text| [number(text, " x=\""), number(text, " y=\"")]).collect()
+        };
+        for size in [47.0, 49.0, 131.0, 245.0, 408.0, 816.0] {
+            let svg = axes(&View::new(size), size);
+            let (names, figures) = (starts(&svg, "axis"), starts(&svg, "figure"));
+            assert!(names.len() == 3 && figures.len() >= 6, "{size}: {svg}");
+            for [x, y] in names {
+                let free = figures
+                    .iter()
+                    .all(|f| f[0] + 200.0 < x || f[0] > x + 470.0 || (f[1] - y).abs() > 110.0);
+                assert!(free, "{size}: {figures:?} at {x} {y}");
+            }
+        }
     }
 
     #[test]

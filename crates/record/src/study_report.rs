@@ -3,7 +3,7 @@
 use wrasse_study::{Answer, Both, SetCard, SetKind, SetVerdict, StudyOutcome, TaskOutcome};
 
 use crate::markup::{escaped, figure, table, words};
-use crate::numbers::{beside_largest, counted, rounded as short};
+use crate::numbers::{beside_largest, counted, pace, rounded as short};
 use crate::study_envelope::{MomentumPath, envelope_figure};
 use crate::study_figures::{error_figure, saturation_figure, task_figures};
 
@@ -149,7 +149,11 @@ fn demands(tasks: &[TaskOutcome]) -> String {
 
 /// A figure with plain steering, and in brackets with the best if that is another.
 fn both(value: Both<Option<f64>>, none: &str) -> String {
-    let [plain, best] = [value.plain, value.best].map(|v| v.map_or(none.to_owned(), short));
+    both_told(value, none, short)
+}
+
+fn both_told(value: Both<Option<f64>>, none: &str, told: fn(f64) -> String) -> String {
+    let [plain, best] = [value.plain, value.best].map(|v| v.map_or(none.to_owned(), told));
     figure(&if plain == best { plain } else { format!("{plain} ({best})") })
 }
 
@@ -226,14 +230,16 @@ fn verdicts(outcome: &StudyOutcome) -> String {
     ];
     "<p class=\"hint\">What is there is counted along the peak of the demand. Figures in brackets: with the \
      best steering. A motion that is N times slower needs an N-th of the momentum and an N²-th of the \
-     torque; against a force from outside no pace helps.</p>\n"
+     torque; against a force from outside no pace helps. \
+     How many times slower is rounded up.</p>\n"
         .to_owned()
         + &table("sizes", &head, &rows)
 }
 
 fn verdict_row(task: &TaskOutcome, verdict: &SetVerdict) -> Vec<String> {
     let grams = |kg: Option<f64>| figure(&kg.map_or("\u{2013}".to_owned(), |kg| short(1e3 * kg)));
-    let slower = if task.own_motion { both(verdict.slower, "never") } else { figure("\u{2013}") };
+    let slower =
+        if task.own_motion { both_told(verdict.slower, "never", pace) } else { figure("\u{2013}") };
     vec![
         words(&verdict.set),
         both(verdict.torque_nm, "any"),
