@@ -237,4 +237,10 @@ pub(crate) struct StudyFile {
     /// Tasks that are flown with every set; the others are judged on what the reference was asked.
     #[serde(default)]
     pub(crate) closed_loop: Vec<String>,
+    /// Most mass that a set may have.
+    #[serde(default)]
+    pub(crate) mass_limit_kg: Option<f64>,
+    /// Most power that a set may take.
+    #[serde(default)]
+    pub(crate) power_limit_w: Option<f64>,
 }

@@ -36,7 +36,7 @@ pub struct Mission {
 }
 
 /// What `wrasse size` makes of the cases of a mission.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Study {
     /// The claim that is examined.
     pub claim: String,
@@ -50,6 +50,10 @@ pub struct Study {
     pub reference: String,
     /// Tasks that are flown with every set.
     pub closed_loop: Vec<String>,
+    /// Most mass that a set may have (kg).
+    pub mass_limit_kg: Option<f64>,
+    /// Most power that a set may take (W).
+    pub power_limit_w: Option<f64>,
 }
 
 impl Study {
@@ -61,6 +65,8 @@ impl Study {
             sets: file.sets.clone(),
             reference: file.reference.clone(),
             closed_loop: file.closed_loop.clone(),
+            mass_limit_kg: file.mass_limit_kg,
+            power_limit_w: file.power_limit_w,
         }
     }
 }

@@ -12,6 +12,8 @@ pub struct Capability {
     pub ideal: bool,
     /// Momentum of wheels and gyros on top of what they hold at the start (N·m·s).
     pub momentum: Solid,
+    /// Momentum of the wheels alone, on top of what they hold at the start (N·m·s).
+    pub wheel_momentum: Solid,
     /// Torque of wheels and gyros with the gimbals at their best (N·m).
     pub torque: Solid,
     /// Torque of the wheels alone (N·m).
@@ -63,9 +65,11 @@ impl Capability {
         };
         let wheel_torque = Solid { pieces: torque_of_wheels.collect() };
         let wheel_momentum = Solid { pieces: momentum_of_wheels.collect() };
+        let held = Solid { pieces: held_by(&actuators.gyros, &equipment.gimbal_angle) };
         Self {
             ideal: false,
-            momentum: wheel_momentum.with(&rotors(|gyro| gyro.momentum)),
+            momentum: wheel_momentum.with(&rotors(|gyro| gyro.momentum)).with(&held),
+            wheel_momentum,
             torque: wheel_torque.with(&rotors(ControlMomentGyro::torque_limit)),
             wheel_torque,
             gyros: actuators.gyros.to_vec(),
@@ -75,9 +79,14 @@ impl Capability {
             propellant: actuators.tank.map(|tank| tank.propellant),
         }
     }
-    /// Whether momentum can leave the vehicle: then there is no end to what can be taken.
+    /// Whether there is no end to the momentum that can be taken: that of thrusters leaves the vehicle.
+    /// Wheels and gyros beside them still have an end for what couples do not take.
     pub fn is_unbounded(&self) -> bool {
-        self.ideal || !self.thrusters.is_empty()
+        self.ideal || (!self.thrusters.is_empty() && self.momentum.is_empty())
+    }
+    /// Whether thrusters stand beside wheels or gyros.
+    pub fn is_hybrid(&self) -> bool {
+        !self.thrusters.is_empty() && !self.momentum.is_empty()
     }
     /// Largest torque along the unit vector `d` with the gimbals at the start, and with the gimbals at
     /// their best (N·m). Thrusters give couples if they can.
@@ -110,17 +119,25 @@ impl Capability {
             return Reach { plain: most, most };
         }
         let plain = steering_reach(&self.gyros, &self.gimbal_angle, d).momentum;
-        Reach { plain: plain.min(most), most }
+        Reach { plain: (plain + self.wheel_momentum.radius(d)).min(most), most }
     }
     /// Largest torque of the thrusters: a couple, or with the force that comes of it if the set can make
     /// no couple (N·m).
-    fn couple(&self, d: Vec3<f64>) -> f64 {
+    pub(crate) fn couple(&self, d: Vec3<f64>) -> f64 {
         if self.thrusters.is_empty() {
             return 0.0;
         }
         let torque = thruster_torque(&self.thrusters, self.p_BScm_B, d);
         if torque.couple > 0.0 { torque.couple } else { torque.with_force }
     }
+}
+
+/// What gyros hold already: what is left is counted from there. Nothing where it is round-off.
+fn held_by(gyros: &[ControlMomentGyro<f64>], angles: &[f64; GYROS]) -> Vec<Piece> {
+    let all: f64 = gyros.iter().map(|gyro| gyro.momentum).sum();
+    let each = gyros.iter().zip(angles).map(|(gyro, &a)| gyro.spin_axis(a) * gyro.momentum);
+    let held = each.fold(Vec3::zero(), |sum, h| sum + h);
+    if held.norm() > 1e-9 * all { vec![Piece::Shift { by: -held }] } else { vec![] }
 }
 
 #[cfg(test)]
@@ -167,6 +184,39 @@ mod tests {
             (momentum.plain - 60.0).abs() < 5e-3 && (momentum.most - 160.0).abs() < 1e-9,
             "{momentum:?}"
         );
+    }
+
+    /// Two of the four gimbals turned against each other tilt two rotors the same way.
+    #[test]
+    fn gyros_that_hold_momentum_at_the_start_have_less_left_one_way() {
+        let mut equipment = Equipment::default();
+        equipment.actuators.gyros = List::new(&pyramid(0.6, 50.0));
+        let at_rest = Capability::of(&equipment, Vec3::zero()).momentum_along(X).most;
+        equipment.gimbal_angle[..4].copy_from_slice(&[0.5, 0.0, -0.5, 0.0]);
+        let held = equipment.actuators.gyros.iter().zip(equipment.gimbal_angle);
+        let held = held.fold(Vec3::zero(), |sum, (g, a)| sum + g.spin_axis(a) * g.momentum);
+        let able = Capability::of(&equipment, Vec3::zero());
+        let d = held * (1.0 / held.norm());
+        let [on, back] = [d, -d].map(|d| able.momentum_along(d).most);
+        assert!(held.norm() > 10.0 && at_rest > 100.0, "{held:?}");
+        // The surface is as far forth as back. Measured 0.
+        assert!((back - on - 2.0 * held.norm()).abs() < 1e-6, "{on} {back} {held:?}");
+    }
+
+    #[test]
+    fn wheels_beside_gyros_add_what_they_hold_to_plain_steering() {
+        let mut equipment = Equipment::default();
+        equipment.actuators.gyros = List::new(&pyramid(0.6, 50.0));
+        let alone = Capability::of(&equipment, Vec3::zero()).momentum_along(X).plain;
+        equipment.actuators.wheels = List::new(&[ReactionWheel {
+            axis_B: X,
+            inertia: 0.1,
+            torque_limit: 0.2,
+            speed_limit: 500.0,
+            ..Default::default()
+        }]);
+        let both = Capability::of(&equipment, Vec3::zero()).momentum_along(X).plain;
+        assert!((both - alone - 50.0).abs() < 1e-9, "{alone} {both}");
     }
 
     #[test]

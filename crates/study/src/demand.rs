@@ -63,6 +63,29 @@ impl Demand {
             force_B: pick(&self.force_B),
         }
     }
+    /// What is left if as much of the torque as there is along its direction is taken all the while;
+    /// `takes`: largest torque along a unit vector (N·m).
+    #[must_use]
+    pub fn less(&self, takes: impl Fn(Vec3<f64>) -> f64) -> Self {
+        let left = |torque: &Vec3<f64>| {
+            let size = torque.norm();
+            if size > 0.0 { (1.0 - takes(*torque * (1.0 / size)) / size).max(0.0) } else { 0.0 }
+        };
+        let left: Vec<f64> = self.torque_B.iter().map(left).collect();
+        // Of what is gathered between two samples the same share is left as of the torque.
+        let mut held = self.momentum_B.first().copied().unwrap_or_default();
+        let spans = self.momentum_B.windows(2).zip(left.windows(2));
+        let rest = spans.map(|(h, share)| {
+            held += (h[1] - h[0]) * (0.5 * (share[0] + share[1]));
+            held
+        });
+        Self {
+            time: self.time.clone(),
+            torque_B: self.torque_B.iter().zip(&left).map(|(v, share)| *v * *share).collect(),
+            momentum_B: self.momentum_B.iter().take(1).copied().chain(rest).collect(),
+            force_B: self.force_B.clone(),
+        }
+    }
     /// The same motion done more slowly, by a factor: torque falls with its square, momentum with it.
     #[must_use]
     pub fn slower(&self, factor: f64) -> Self {
@@ -125,6 +148,17 @@ mod tests {
         assert_eq!(slow.duration(), 20.0);
         assert_eq!(slow.peak_torque(), vec3(0.0, 0.5, 0.0));
         assert_eq!(slow.peak_momentum(), vec3(0.0, -5.0, 0.0));
+    }
+
+    #[test]
+    fn of_what_half_is_taken_half_is_left() {
+        let all = push_and_stop();
+        assert_eq!(all.less(|_| 0.0), all);
+        let half = all.less(|_| 1.0);
+        assert_eq!(half.peak_torque(), vec3(0.0, 1.0, 0.0));
+        // Sums of a thousand roundings. Measured 0.
+        assert!((half.peak_momentum() - vec3(0.0, -5.0, 0.0)).norm() < 1e-9);
+        assert_eq!(all.less(|_| 3.0).peak_momentum(), Vec3::zero());
     }
 
     #[test]

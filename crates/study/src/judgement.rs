@@ -35,6 +35,8 @@ pub struct Judgement {
     pub torque: Answer,
     /// Whether the momentum can be held while the task lasts.
     pub momentum: Answer,
+    /// Whether the tank holds the propellant; yes if none is said to be needed, or no tank is given.
+    pub propellant: Answer,
     /// Largest torque that is asked for, over what the set can give then (–).
     pub torque_load: Both<f64>,
     /// Torque that the set can give along the peak of the demand (N·m).
@@ -65,9 +67,11 @@ pub fn judge(demand: &Demand, able: &Capability, own_motion: bool) -> Judgement 
     let demand = demand.thinned();
     let best = best_torque_load(&demand, able);
     // A motion of the vehicle's own ends at rest; a push from outside may go on.
-    let lasting = if own_motion { None } else { demand.sustained() };
-    let leaves = leaves_at_best(&demand, lasting, able);
-    let plain = Plain::follow(&demand, lasting, able);
+    let shared = Shared::of(&demand, own_motion, able);
+    let lasting = lasting(&shared.stored, own_motion);
+    let leaves = leaves_at_best(&shared.stored, lasting, able);
+    let plain = Plain::follow(&demand, &shared.stored, lasting, able);
+    let fuel = fuel(&shared.pushed, able, false);
     let torque_load = Both { plain: plain.torque_load.unwrap_or(best), best };
     let stops = if able.gyros.is_empty() || able.is_unbounded() { leaves } else { plain.stops };
     let answer = |plain: bool, best: bool| match (plain, best) {
@@ -86,14 +90,53 @@ pub fn judge(demand: &Demand, able: &Capability, own_motion: bool) -> Judgement 
     Judgement {
         torque: answer(torque_load.plain <= 1.0, best <= 1.0),
         momentum: answer(holds(stops), holds(leaves)),
+        propellant: propellant(fuel, able),
         torque_load,
         torque_there: along(demand.peak_torque(), |d| able.torque_along(d)),
         momentum_there: along(demand.peak_momentum(), |d| able.momentum_along(d)),
         saturates: Both { plain: stops, best: leaves },
         slower,
-        fuel: fuel(&demand, able, false),
-        fuel_in_place: fuel(&demand, able, true),
+        fuel,
+        fuel_in_place: self::fuel(&shared.pushed, able, true),
     }
+}
+
+/// A demand shared between thrusters and what stores momentum.
+struct Shared {
+    /// What wheels and gyros have to store.
+    stored: Demand,
+    /// What thrusters have to give.
+    pushed: Demand,
+}
+
+impl Shared {
+    /// Beside wheels and gyros that hold all of the momentum, thrusters give what torque is missing. Else
+    /// they take all that they can, and the others the rest.
+    fn of(demand: &Demand, own_motion: bool, able: &Capability) -> Self {
+        if !able.is_hybrid() {
+            return Self { stored: demand.clone(), pushed: demand.clone() };
+        }
+        let fits = leaves_at_best(demand, lasting(demand, own_motion), able).is_none();
+        if fits {
+            let pushed = demand.less(|d| able.torque.radius(d));
+            return Self { stored: demand.clone(), pushed };
+        }
+        let stored = demand.less(|d| able.couple(d));
+        let torques = demand.torque_B.iter().zip(&stored.torque_B);
+        let pushed = Demand { torque_B: torques.map(|(a, b)| *a - *b).collect(), ..demand.clone() };
+        Self { stored, pushed }
+    }
+}
+
+/// Momentum gathered every second after a push that goes on (N·m·s/s).
+fn lasting(demand: &Demand, own_motion: bool) -> Option<Vec3<f64>> {
+    if own_motion { None } else { demand.sustained() }
+}
+
+/// Whether the tank holds what is needed.
+fn propellant(fuel: Option<f64>, able: &Capability) -> Answer {
+    let over = fuel.zip(able.propellant).is_some_and(|(fuel, tank)| fuel > tank);
+    if over { Answer::No } else { Answer::Yes }
 }
 
 /// A reach along a vector; endless along none.
@@ -161,16 +204,36 @@ struct Plain {
 }
 
 impl Plain {
-    fn follow(demand: &Demand, lasting: Option<Vec3<f64>>, able: &Capability) -> Self {
+    /// `stored`: what wheels and gyros hold of the demand.
+    fn follow(
+        demand: &Demand,
+        stored: &Demand,
+        lasting: Option<Vec3<f64>>,
+        able: &Capability,
+    ) -> Self {
         if able.gyros.is_empty() {
             return Self { torque_load: None, stops: None };
         }
-        let path = steering_path(&able.gyros, &able.gimbal_angle, &demand.momentum_B);
+        let path = steering_path(&able.gyros, &able.gimbal_angle, &beyond_wheels(stored, able));
         let asked = path.angles.iter().zip(&demand.torque_B);
         let loads = asked.map(|(angles, torque)| load(*torque, |d| able.torque_at(angles, d)));
         let torque_load = Some(loads.fold(0.0, f64::max));
         Self { torque_load, stops: stops(demand, lasting, able, &path) }
     }
+}
+
+/// Momentum that is left to the gyros: wheels take what they can of the torque, until they are full.
+fn beyond_wheels(stored: &Demand, able: &Capability) -> Vec<Vec3<f64>> {
+    if able.wheel_momentum.is_empty() {
+        return stored.momentum_B.clone();
+    }
+    let rest = stored.less(|d| able.wheel_torque.radius(d));
+    let both = stored.momentum_B.iter().zip(&rest.momentum_B);
+    both.map(|(all, rest)| {
+        let wheels = *all - *rest;
+        *all - wheels * (1.0 / able.wheel_momentum.load(wheels).max(1.0))
+    })
+    .collect()
 }
 
 /// When steering along a path gets no further (s), on and on for a task that ends under load.
@@ -194,13 +257,37 @@ fn stops(
 
 /// By how much slower the best steering can do the task.
 fn slower_at_best(torque_load: f64, demand: &Demand, able: &Capability) -> Option<f64> {
-    let momentum_load = if able.is_unbounded() {
+    let momentum_load = if able.is_unbounded() || able.is_hybrid() {
         0.0
     } else {
         demand.momentum_B.iter().map(|h| able.momentum.load(*h)).fold(0.0, f64::max)
     };
     let factor = torque_load.sqrt().max(momentum_load).max(1.0);
-    (factor <= SLOWEST).then_some(factor)
+    if !able.is_hybrid() {
+        return (factor <= SLOWEST).then_some(factor);
+    }
+    // The slower, the more of it the couples take.
+    let fails = |factor: f64| {
+        let slow = demand.slower(factor);
+        leaves_at_best(&Shared::of(&slow, true, able).stored, None, able).is_some()
+    };
+    pace(factor, fails)
+}
+
+/// The least factor from `least` on that does not fail, by halving.
+fn pace(least: f64, fails: impl Fn(f64) -> bool) -> Option<f64> {
+    if !fails(least) {
+        return (least <= SLOWEST).then_some(least);
+    }
+    let mut far = 2.0 * least;
+    while fails(far) {
+        far *= 2.0;
+        // Numbers that are no numbers get nowhere.
+        if far.is_nan() || far > SLOWEST {
+            return None;
+        }
+    }
+    Some(boundary(0.5 * far, far, |factor| !fails(factor)))
 }
 
 /// By how much slower plain steering can do the task, by halving: no faster than the best.
@@ -209,22 +296,12 @@ fn slower_plain(demand: &Demand, able: &Capability, best: Option<f64>) -> Option
     if able.gyros.is_empty() {
         return Some(best);
     }
-    let fails = |factor: f64| {
+    pace(best, |factor| {
         let slow = demand.slower(factor);
-        let plain = Plain::follow(&slow, None, able);
+        let stored = Shared::of(&slow, true, able).stored;
+        let plain = Plain::follow(&slow, &stored, None, able);
         plain.stops.is_some() || plain.torque_load.is_some_and(|load| load > 1.0)
-    };
-    if !fails(best) {
-        return Some(best);
-    }
-    let mut far = 2.0 * best;
-    while fails(far) {
-        far *= 2.0;
-        if far > SLOWEST {
-            return None;
-        }
-    }
-    Some(boundary(0.5 * far, far, |factor| !fails(factor)))
+    })
 }
 
 /// Propellant for the torque of a task (kg), and for the force that keeps the base in place if asked.
@@ -341,6 +418,56 @@ mod tests {
         let stops = verdict.saturates.plain.unwrap();
         // 50 (1 - cos) = 60 after a quarter and 0.0320 of the turn: 2.8205 s. Measured 2.8204.
         assert!((stops - 2.8205).abs() < 5e-3, "{stops}");
+    }
+
+    fn jets(force: f64, propellant: f64) -> Equipment {
+        use wrasse_hardware::{Tank, Thruster};
+        let mut equipment = Equipment::default();
+        // Couples about x: from one metre above and below the centre, along y.
+        let jet = |z: f64, y: f64| Thruster {
+            position_B: vec3(0.0, 0.0, z),
+            direction_B: vec3(0.0, y, 0.0),
+            force,
+            specific_impulse: 200.0,
+            ..Default::default()
+        };
+        let all = [jet(1.0, 1.0), jet(1.0, -1.0), jet(-1.0, 1.0), jet(-1.0, -1.0)];
+        equipment.actuators.thrusters = List::new(&all);
+        equipment.actuators.tank = Some(Tank { propellant, ..Default::default() });
+        equipment
+    }
+
+    /// Couples of 2 N·m beside wheels of 50 N·m·s: of 4 N·m half is stored, and lasts 25 s.
+    #[test]
+    fn wheels_beside_thrusters_fill_with_what_couples_do_not_take() {
+        let mut equipment = jets(1.0, 40.0);
+        let wheel = ReactionWheel {
+            axis_B: vec3(1.0, 0.0, 0.0),
+            inertia: 0.1,
+            torque_limit: 5.0,
+            speed_limit: 500.0,
+            ..Default::default()
+        };
+        equipment.actuators.wheels = List::new(&[wheel]);
+        let able = Capability::of(&equipment, Vec3::zero());
+        let full = judge(&push(4.0), &able, false).saturates.best.unwrap();
+        // Measured 3e-11.
+        assert!((full - 25.0).abs() < 1e-6, "{full}");
+        // What couples take whole is never full.
+        assert_eq!(judge(&push(1.9), &able, false).saturates.best, None);
+    }
+
+    /// 1 N·m for 5 s takes 2 x 0.5 N for 5 s: 5 / (200 · 9.80665) = 2.55 g.
+    #[test]
+    fn a_tank_that_holds_too_little_is_a_no() {
+        let answer = |kg| {
+            let able = Capability::of(&jets(1.0, kg), Vec3::zero());
+            let judged = judge(&push(1.0), &able, false);
+            // Measured 5e-19 kg.
+            assert!((judged.fuel.unwrap() - 5.0 / (200.0 * 9.80665)).abs() < 1e-8, "{judged:?}");
+            judged.propellant
+        };
+        assert_eq!([answer(0.003), answer(0.002)], [Answer::Yes, Answer::No]);
     }
 
     /// 4 N·m along x: 60 N·m·s last 15 s, 160 last 40 s; three wheels of 50 last 12.5 s.

@@ -25,6 +25,10 @@ pub struct StudyOutcome {
     pub seed: u64,
     /// What the study puts to the test, in the words of its file.
     pub claim: String,
+    /// Most mass that a set may have (kg), if the study says so.
+    pub mass_limit_kg: Option<f64>,
+    /// Most power that a set may take (W), if the study says so.
+    pub power_limit_w: Option<f64>,
     /// Number of cases that were flown.
     pub flights: usize,
     /// Whether the ledger of every flight closes.
@@ -66,6 +70,10 @@ pub struct SetCard {
     pub mass_kg: Option<f64>,
     /// Power of its units (W), if each says its own.
     pub power_w: Option<f64>,
+    /// Whether the mass is within the study's limit; none without a limit or a mass.
+    pub within_mass_limit: Option<bool>,
+    /// Whether the power is within the study's limit; none without a limit or a power.
+    pub within_power_limit: Option<bool>,
     /// Propellant at the start (kg), if it has a tank.
     pub propellant_kg: Option<f64>,
     /// Torque along x, y and z of the base (N·m); none if endless.
@@ -130,12 +138,14 @@ pub struct HandCheck {
 pub struct SetVerdict {
     /// Name of the set.
     pub set: String,
-    /// Torque and momentum together, for as long as the task lasts.
+    /// Torque, momentum and propellant together, for as long as the task lasts.
     pub suffices: Answer,
     /// Whether the torque can be given.
     pub torque: Answer,
     /// Whether the momentum can be held.
     pub momentum: Answer,
+    /// Whether the tank holds the propellant for it; yes where none is needed or no tank is given.
+    pub propellant: Answer,
     /// Torque asked over torque there is, at its worst (–); none where there is none.
     pub torque_load: Both<Option<f64>>,
     /// Torque along the peak of the demand (N·m); none if endless.

@@ -41,6 +41,8 @@ pub fn size(study: &Study, threads: usize, progress: &mut dyn FnMut(Progress<'_>
         text: mission.text.clone(),
         version: env!("CARGO_PKG_VERSION").into(),
         seed: mission.seed,
+        mass_limit_kg: table.and_then(|table| table.mass_limit_kg),
+        power_limit_w: table.and_then(|table| table.power_limit_w),
         flights,
         closes,
         findings: findings(claim_is, &sets, &tasks),
@@ -63,11 +65,17 @@ fn card(study: &Study, k: usize) -> SetCard {
     let able = if ideal { Capability::ideal() } else { Capability::of(equipment, Vec3::zero()) };
     let units = [vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0)];
     let known = |x: Option<f64>| if ideal { None } else { x };
+    let limits =
+        study.mission.study.as_ref().map(|table| (table.mass_limit_kg, table.power_limit_w));
+    let (most_mass, most_power) = limits.unwrap_or_default();
+    let within = |x: Option<f64>, most: Option<f64>| known(x).zip(most).map(|(x, most)| x <= most);
     SetCard {
         name: study.sets[k].clone(),
         kind: if ideal { SetKind::Ideal } else { kind(equipment) },
         mass_kg: known(equipment.mass),
         power_w: known(equipment.power),
+        within_mass_limit: within(equipment.mass, most_mass),
+        within_power_limit: within(equipment.power, most_power),
         propellant_kg: known(able.propellant),
         torque_nm: units.map(|d| bounded(able.torque_along(d))),
         momentum_nms: units.map(|d| bounded(able.momentum_along(d))),
@@ -265,9 +273,10 @@ fn verdict(set: &str, judged: &Judgement, flown: Option<Flown>) -> SetVerdict {
     let load = judged.torque_load;
     SetVerdict {
         set: set.to_owned(),
-        suffices: judged.torque.max(judged.momentum),
+        suffices: judged.torque.max(judged.momentum).max(judged.propellant),
         torque: judged.torque,
         momentum: judged.momentum,
+        propellant: judged.propellant,
         torque_load: Both { plain: finite(load.plain), best: finite(load.best) },
         torque_nm: reach(judged.torque_there),
         momentum_nms: reach(judged.momentum_there),

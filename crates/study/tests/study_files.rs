@@ -155,3 +155,17 @@ fn a_requirement_on_units_that_a_set_lacks_does_not_count_against_it() {
     let outcome = size(&study, 2, &mut |_| {});
     assert!(outcome.tasks[1].verdicts.iter().all(|v| !v.flown.as_ref().unwrap().requirements_hold));
 }
+
+#[test]
+fn mass_and_power_are_held_against_the_limits_of_the_study() {
+    let limits = "[study]\nmass_limit_kg = 100\npower_limit_w = 1e6";
+    let study = read_study("small.toml", &SMALL.replace("[study]", limits)).unwrap();
+    let outcome = size(&study, 2, &mut |_| {});
+    assert_eq!((outcome.mass_limit_kg, outcome.power_limit_w), (Some(100.0), Some(1e6)));
+    let gyros = &outcome.sets[1];
+    // Four of them weigh more than 100 kg together.
+    assert!(gyros.mass_kg.unwrap() > 100.0, "{gyros:?}");
+    assert_eq!((gyros.within_mass_limit, gyros.within_power_limit), (Some(false), Some(true)));
+    assert_eq!(outcome.sets[0].within_mass_limit, None);
+    assert_eq!(sized(2).sets[1].within_mass_limit, None);
+}

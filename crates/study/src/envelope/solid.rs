@@ -24,6 +24,11 @@ pub enum Piece {
         /// Radius.
         radius: f64,
     },
+    /// Nothing to choose: all is moved by this much.
+    Shift {
+        /// By how much.
+        by: Vec3<f64>,
+    },
 }
 
 /// All that can be reached as a sum of one point from each piece. For gyros, whose single momenta lie
@@ -48,6 +53,7 @@ impl Piece {
             Self::Segment { half } => u.dot(half).abs(),
             Self::OneSided { end } => u.dot(end).max(0.0),
             Self::Disc { axis, radius } => radius * (u - axis * u.dot(axis)).norm(),
+            Self::Shift { by } => u.dot(by),
         }
     }
     fn scaled(&self, factor: f64) -> Self {
@@ -55,6 +61,7 @@ impl Piece {
             Self::Segment { half } => Self::Segment { half: half * factor },
             Self::OneSided { end } => Self::OneSided { end: end * factor },
             Self::Disc { axis, radius } => Self::Disc { axis, radius: radius * factor },
+            Self::Shift { by } => Self::Shift { by: by * factor },
         }
     }
 }
@@ -77,9 +84,10 @@ impl Solid {
     /// The same solid about its middle: every piece a segment or a disc.
     #[must_use]
     pub fn centred(&self) -> Self {
-        let pieces = self.pieces.iter().map(|piece| match *piece {
-            Piece::OneSided { end } => Piece::Segment { half: end * 0.5 },
-            other => other,
+        let pieces = self.pieces.iter().filter_map(|piece| match *piece {
+            Piece::OneSided { end } => Some(Piece::Segment { half: end * 0.5 }),
+            Piece::Shift { .. } => None,
+            other => Some(other),
         });
         Self { pieces: pieces.collect() }
     }
@@ -89,8 +97,13 @@ impl Solid {
     }
     /// How far the solid reaches from zero along the unit vector `d`.
     pub fn radius(&self, d: Vec3<f64>) -> f64 {
-        let discs = self.pieces.iter().any(|piece| matches!(piece, Piece::Disc { .. }));
-        if discs { self.radius_by_support(d) } else { self.radius_by_program(d) }
+        let straight =
+            |piece: &Piece| matches!(piece, Piece::Segment { .. } | Piece::OneSided { .. });
+        if self.pieces.iter().all(straight) {
+            self.radius_by_program(d)
+        } else {
+            self.radius_by_support(d).max(0.0)
+        }
     }
     /// How many times `point` is farther out than the surface in its direction: inside up to one.
     pub fn load(&self, point: Vec3<f64>) -> f64 {
@@ -104,6 +117,7 @@ impl Solid {
             Piece::Segment { half } => half,
             Piece::OneSided { end } => end,
             Piece::Disc { axis, .. } => axis,
+            Piece::Shift { by } => by,
         });
         let axes: Vec<_> = axes.collect();
         let pairs = axes
@@ -122,7 +136,7 @@ impl Solid {
                 // From -half to half is half times (share below two, less one).
                 Piece::Segment { half } => columns.extend([half, -half]),
                 Piece::OneSided { end } => columns.push(end),
-                Piece::Disc { .. } => {}
+                Piece::Disc { .. } | Piece::Shift { .. } => {}
             }
         }
         let mut rows = vec![vec![]; 3];
