@@ -173,3 +173,18 @@ pub(crate) fn error_figure(outcome: &StudyOutcome) -> String {
     )
     .unwrap_or_default()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_of_eleven_sets_has_a_colour_of_its_own_that_is_not_that_of_the_demand() {
+        let colours: Vec<_> = (0..11).map(colour).collect();
+        let css = include_str!("../assets/study.css");
+        for (k, one) in colours.iter().enumerate() {
+            assert!(*one != 1 && !colours[..k].contains(one), "{colours:?}");
+            assert!(css.contains(&format!(".line-{one} {{ stroke:")), "{one} is not in the style");
+        }
+    }
+}
