@@ -5,7 +5,7 @@ use crate::outcome::HandCheck;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use wrasse_dynamics::{Kinematics, State, kinematics};
+use wrasse_dynamics::{BodyId, Kinematics, State, kinematics};
 use wrasse_spatial::Vec3;
 use wrasse_vehicle::{JOINTS, Vehicle};
 
@@ -16,6 +16,29 @@ pub(crate) struct TaskFile {
     payload: BTreeMap<String, LoadFile>,
     world: PushFile,
     phase: Vec<PhaseFile>,
+    initial: InitialFile,
+    control: ControlFile,
+}
+
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(default)]
+struct InitialFile {
+    attitude: Option<TurnFile>,
+}
+
+/// The vector part of a quaternion: zero where nothing is turned.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(default)]
+struct TurnFile {
+    x: f64,
+    y: f64,
+    z: f64,
+}
+
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(default)]
+struct ControlFile {
+    tool: Option<String>,
 }
 
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
@@ -36,6 +59,7 @@ struct PushFile {
 #[serde(default)]
 struct WrenchFile {
     on: String,
+    axes: Option<String>,
     from_s: f64,
     duration_s: f64,
     ramp_s: f64,
@@ -47,7 +71,15 @@ struct WrenchFile {
 #[serde(default)]
 struct PhaseFile {
     move_tool: Option<MoveFile>,
+    move_joints: Option<OtherFile>,
+    relieve: Option<OtherFile>,
+    grasp: Option<OtherFile>,
+    release: Option<OtherFile>,
 }
+
+/// Something that is done, whatever it is in detail.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+struct OtherFile {}
 
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(default)]
@@ -80,6 +112,30 @@ struct Pace {
     how: String,
 }
 
+impl TaskFile {
+    /// Whether figures in these axes are turned against those of the base, in which a hand reckons.
+    fn is_turned(&self, axes: Option<&str>) -> bool {
+        let turned = |turn: &TurnFile| [turn.x, turn.y, turn.z].iter().any(|part| *part != 0.0);
+        axes != Some("base") && self.initial.attitude.as_ref().is_some_and(turned)
+    }
+    /// The first straight line, if load and posture are those of the start until then.
+    fn first_line(&self) -> Option<&MoveFile> {
+        let at = self.phase.iter().position(|phase| phase.move_tool.is_some())?;
+        let before = self.phase[..at].iter();
+        let same = before.clone().all(|phase| !phase.moves() && !phase.changes_the_load());
+        self.phase[at].move_tool.as_ref().filter(|_| same)
+    }
+}
+
+impl PhaseFile {
+    fn moves(&self) -> bool {
+        self.move_joints.is_some() || self.relieve.is_some()
+    }
+    fn changes_the_load(&self) -> bool {
+        self.grasp.is_some() || self.release.is_some()
+    }
+}
+
 impl Start<'_> {
     fn tool(
         &self,
@@ -89,10 +145,16 @@ impl Start<'_> {
         let name = name.or_else(|| self.vehicle.tools.first().map(String::as_str))?;
         self.vehicle.frame(name).map(|frame| k.pose(&frame))
     }
-    /// Mass (kg) and centre of mass (m) of the load: of all payloads that are held.
-    fn load(&self, k: &Kinematics<'_, f64, JOINTS>, file: &TaskFile) -> (f64, Vec3<f64>) {
+    /// Mass (kg) and centre of mass (m) of the payloads that tools of some names hold.
+    fn load(
+        &self,
+        k: &Kinematics<'_, f64, JOINTS>,
+        file: &TaskFile,
+        counts: impl Fn(&str) -> bool,
+    ) -> (f64, Vec3<f64>) {
         let held = file.payload.values().filter_map(|load| {
-            let tool = self.tool(k, Some(load.held_by.as_deref()?))?;
+            let name = load.held_by.as_deref().filter(|name| counts(name))?;
+            let tool = self.tool(k, Some(name))?;
             Some((load.mass_kg, tool.point(Vec3::from_array(load.centre_of_mass_m))))
         });
         let (mass, moment) =
@@ -102,7 +164,7 @@ impl Start<'_> {
     /// Centre of mass of vehicle and load (m).
     pub(crate) fn centre_of_mass(&self, file: &TaskFile) -> Vec3<f64> {
         let k = kinematics(&self.vehicle.robot, &self.state);
-        let ((rest, p_rest), (load, p_load)) = (k.centre_of_mass(), self.load(&k, file));
+        let ((rest, p_rest), (load, p_load)) = (k.centre_of_mass(), self.load(&k, file, |_| true));
         (p_rest * rest + p_load * load) * (1.0 / (rest + load))
     }
     /// The demand of the task by hand, if it is one of those that a hand can do: a push at a tool, or
@@ -116,6 +178,10 @@ impl Start<'_> {
     }
     /// Force times lever, and the torque that comes with it; momentum is torque times time.
     fn of_push(&self, file: &TaskFile, duration: f64) -> Option<HandCheck> {
+        let turned = file.world.applied_wrench.iter().any(|w| file.is_turned(w.axes.as_deref()));
+        if turned || file.phase.iter().any(PhaseFile::changes_the_load) {
+            return None;
+        }
         let k = kinematics(&self.vehicle.robot, &self.state);
         let centre = self.centre_of_mass(file);
         let (mut torque, mut momentum) = (Vec3::zero(), Vec3::zero());
@@ -138,22 +204,38 @@ impl Start<'_> {
         }
         Some(HandCheck { momentum: momentum.norm(), torque: torque.norm(), how: how.join(", ") })
     }
+    /// The chain that carries a tool: its mass (kg), and the number of its first joint.
+    fn arm(&self, tool: &str) -> Option<(f64, usize)> {
+        let (robot, body) = (&self.vehicle.robot, self.vehicle.frame(tool)?.body);
+        let masses = robot.path_to_base(body).map(|j| robot.inertia(BodyId::Link(j)).mass);
+        Some((masses.sum(), robot.chain_root(body)?))
+    }
     /// Reduced mass times lever times speed for the load, half the tool's speed for the arm.
     fn of_motion(&self, file: &TaskFile) -> Option<HandCheck> {
-        let motion = file.phase.iter().find_map(|phase| phase.move_tool.as_ref())?;
+        let motion = file.first_line()?;
+        if file.is_turned(motion.axes.as_deref()) {
+            return None;
+        }
+        let first = self.vehicle.tools.first().map(String::as_str);
+        let tool = file.control.tool.as_deref().or(first)?;
+        let (arm, root) = self.arm(tool)?;
         let by = Vec3::from_array(motion.by_m?);
         let pace = motion.pace(by.norm())?;
         let along = by * (1.0 / by.norm());
         let k = kinematics(&self.vehicle.robot, &self.state);
-        let ((rest, p_rest), (load, p_load)) = (k.centre_of_mass(), self.load(&k, file));
-        let base = self.vehicle.robot.inertia(wrasse_dynamics::BodyId::Base).mass;
-        let p_arm = (k.joint_origin(0) + self.tool(&k, None)?.translation) * 0.5;
+        let (load, p_load) = self.load(&k, file, |name| name == tool);
+        // What other tools hold belongs to the rest.
+        let ((own, p_own), (other, p_other)) =
+            (k.centre_of_mass(), self.load(&k, file, |name| name != tool));
+        let rest = own + other;
+        let p_rest = (p_own * own + p_other * other) * (1.0 / rest);
+        let p_arm = (k.joint_origin(root) + self.tool(&k, Some(tool))?.translation) * 0.5;
         // Seen from the base the load moves against all the rest; seen from outside the rest recoils.
         let reduced = load * rest / (rest + load);
         let inertial = motion.axes.as_deref() != Some("base");
         let moved = if inertial { load } else { reduced };
-        let each = (p_load - p_rest).cross(along) * moved
-            + (p_arm - p_rest).cross(along) * (0.5 * (rest - base));
+        let each =
+            (p_load - p_rest).cross(along) * moved + (p_arm - p_rest).cross(along) * (0.5 * arm);
         let size = each.norm();
         let lever = (p_load - p_rest).cross(along).norm();
         let mut how = String::new();
@@ -161,7 +243,7 @@ impl Start<'_> {
             let name = if inertial { "load" } else { "reduced mass" };
             how = format!("{name} {moved:.0} kg at a lever of {lever:.2} m, ");
         }
-        how += &format!("arm {:.0} kg at half the speed; {}", rest - base, pace.how);
+        how += &format!("arm {arm:.0} kg at half the speed; {}", pace.how);
         Some(HandCheck { momentum: size * pace.speed, torque: size * pace.acceleration, how })
     }
 }
@@ -214,6 +296,22 @@ mod tests {
         let t = (3.0 - 3.0_f64.sqrt()) / 6.0;
         let largest = t * (60.0 + t * (-180.0 + t * 120.0)) * 0.02;
         assert!((pace.acceleration - largest).abs() < 1e-15, "{} {largest}", pace.acceleration);
+    }
+
+    #[test]
+    fn a_line_behind_a_grasp_or_in_turned_axes_is_no_work_for_a_hand() {
+        let line = || PhaseFile {
+            move_tool: Some(MoveFile { duration_s: Some(1.0), ..MoveFile::default() }),
+            ..PhaseFile::default()
+        };
+        let grasp = PhaseFile { grasp: Some(OtherFile {}), ..PhaseFile::default() };
+        let of = |phase| TaskFile { phase, ..TaskFile::default() };
+        assert!(of(vec![PhaseFile::default(), line(), grasp.clone()]).first_line().is_some());
+        assert!(of(vec![grasp, line()]).first_line().is_none());
+        let mut turned = of(vec![]);
+        assert!(!turned.is_turned(None));
+        turned.initial.attitude = Some(TurnFile { z: 0.1, ..TurnFile::default() });
+        assert!(turned.is_turned(None) && !turned.is_turned(Some("base")));
     }
 
     #[test]
