@@ -99,7 +99,16 @@ fn number(value: Option<f64>) -> String {
     value.map_or("-".to_owned(), rounded)
 }
 
-/// What each set can give and hold, what it weighs and takes.
+/// A figure with a yes or no, where the study sets a limit.
+fn judged(figure: String, within: Option<bool>) -> String {
+    match within {
+        None => figure,
+        Some(true) => format!("{figure} yes"),
+        Some(false) => format!("{figure} NO"),
+    }
+}
+
+/// What each set can give and hold, what it weighs and takes; against the limits of the study.
 fn sets(sets: &[SetCard]) -> String {
     let heads = [
         ["", "torque", "", "", "momentum", "", "", "anywhere", "", "", ""],
@@ -113,7 +122,9 @@ fn sets(sets: &[SetCard]) -> String {
         let reaches = set.torque_nm.iter().chain(&set.momentum_nms);
         row.extend(reaches.map(|reach| any(reach.map(|both| both.plain))));
         row.push(any(set.momentum_everywhere_nms));
-        row.extend([set.mass_kg, set.power_w, set.propellant_kg].map(number));
+        let mass = judged(number(set.mass_kg), set.within_mass_limit);
+        let power = judged(number(set.power_w), set.within_power_limit);
+        row.extend([mass, power, number(set.propellant_kg)]);
         rows.push(row);
     }
     let mut sides = vec![Side::Right; 11];
@@ -141,25 +152,21 @@ fn matrix(outcome: &StudyOutcome) -> String {
     }
     let sides = vec![Side::Left; outcome.sets.len() + 1];
     aligned(&rows, &sides)
-        + "steer: only with steering that avoids or escapes singularities; no T: not the torque, no H: not \
-           the momentum;\nx4.1: 4.1 times slower it can (with plain steering; rounded up)\n"
+        + "steer: not ruled out, but only with steering that avoids or escapes singularities; no T: not the \
+           torque, no H: not the momentum, no P: not the propellant;\nx4.1: 4.1 times slower it can (with plain steering; rounded up)\n"
 }
 
 fn cell(verdict: &SetVerdict) -> String {
-    let lacks = match (verdict.torque, verdict.momentum) {
-        (Answer::No, Answer::No) => "no TH",
-        (Answer::No, _) => "no T",
-        (_, Answer::No) => "no H",
-        _ => "",
-    };
+    let asked = [(verdict.torque, 'T'), (verdict.momentum, 'H'), (verdict.propellant, 'P')];
+    let lacks = asked.iter().filter(|(answer, _)| *answer == Answer::No).map(|(_, letter)| letter);
     let word = match verdict.suffices {
-        Answer::Yes => "yes",
-        Answer::WithSteering => "steer",
-        Answer::No => lacks,
+        Answer::Yes => "yes".to_owned(),
+        Answer::WithSteering => "steer".to_owned(),
+        Answer::No => format!("no {}", lacks.collect::<String>()),
     };
     match verdict.slower.plain {
         Some(factor) if verdict.suffices != Answer::Yes => format!("{word} x{}", pace(factor)),
-        _ => word.to_owned(),
+        _ => word,
     }
 }
 
