@@ -13,7 +13,7 @@ use wrasse_study::{StudyOutcome, read_study, size};
 
 /// Size the actuators of a base: what a task asks, which sets can give it, how much slower it must be.
 ///
-/// Takes a study (a mission file with a table [study], such as studies/section-4.toml) or any mission,
+/// Takes a study (a mission file with a study table, such as studies/section-4.toml) or any mission,
 /// which is then weighed against the sets of studies/sets.toml. Every task is flown with the reference;
 /// those that the study names are flown in closed loop with every set.
 /// Writes report.html and summary.json to out/NAME-size, beside what `wrasse run` leaves in out/NAME.
