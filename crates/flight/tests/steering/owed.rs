@@ -1,7 +1,8 @@
 //! What servos, friction and failures take is asked for again; what was reported missing is not.
 
 use crate::bench::{Bench, PERIOD, actuators, gyros, needs, setup, size, wheels};
-use wrasse_flight::steering::Unit;
+use wrasse_flight::steering::{Steering, Unit};
+use wrasse_hardware::ActuatorReadings;
 use wrasse_spatial::Vec3;
 
 /// Rate at which a debt is paid off (1/s).
@@ -220,4 +221,21 @@ fn what_happens_at_rest_is_not_owed() {
     bench.step(&needs);
     fresh.step(&needs);
     assert_eq!(bench.last.command, fresh.last.command);
+}
+
+/// A debt of 0.5 N·m·s asks for 5 N·m of wheels that have 0.2 N·m each: all of them go to their limits.
+/// Nothing was wanted, so nothing of it is missing. Measured 0 N·m.
+#[test]
+fn what_is_owed_is_not_told_as_missing() {
+    let setup = setup(&actuators(&wheels(0.2), &[], &[]));
+    let mut steering = Steering::new(&setup);
+    let idle = needs([0.0; 3], [0.0; 3]);
+    let mut readings = ActuatorReadings::default();
+    steering.steer(&idle, &readings);
+    // Something turned the first wheel by 5 rad/s: 0.5 N·m·s that nobody asked for.
+    readings.wheel_speed[0] = 5.0;
+    let steered = steering.steer(&idle, &readings);
+    let most = steered.command.wheel_torque.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+    assert!(most > 0.19, "the wheels work at the debt: {most} N·m");
+    assert_eq!(size(steered.report.missing.torque), 0.0);
 }
