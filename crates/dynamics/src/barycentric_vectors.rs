@@ -56,7 +56,7 @@ pub fn virtual_manipulator<T: Real, const J: usize>(
 ) -> Vec3<T> {
     let mut p = p_NScm_N;
     for body in k.robot.bodies() {
-        p += k.X_NB[body].rotation * lambda[body];
+        p += k.X_NB(body).rotation * lambda[body];
     }
     p
 }

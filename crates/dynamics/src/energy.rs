@@ -7,7 +7,7 @@ use wrasse_spatial::Real;
 pub fn kinetic_energy<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> T {
     let mut twice = T::zero();
     for body in k.robot.bodies() {
-        let V = k.V_NB_B[body];
+        let V = k.V_NB_B(body);
         twice += V.power(&(*k.robot.inertia(body) * V));
     }
     twice * T::from_f64(0.5)

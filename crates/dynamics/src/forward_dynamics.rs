@@ -116,7 +116,7 @@ fn alone<T: Real, const J: usize>(
     external: &PerBody<SpatialForce<T>, J>,
 ) -> PerBody<Articulated<T>, J> {
     let rigid = |body: BodyId, VJ_B: SpatialVelocity<T>| {
-        let (M, V) = (*k.robot.inertia(body), k.V_NB_B[body]);
+        let (M, V) = (*k.robot.inertia(body), k.V_NB_B(body));
         Articulated {
             M: ArticulatedInertia::from_rigid(&M),
             p: V.cross_force(&(M * V)) - external[body],

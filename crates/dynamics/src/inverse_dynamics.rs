@@ -34,7 +34,7 @@ pub fn inverse_dynamics<T: Real, const J: usize>(
     let A_NB_B = spatial_accelerations(k, nudot);
     // Each body alone: the rate of its momentum, less what pushes it from outside.
     let alone = |body: BodyId| {
-        let (M, V) = (*k.robot.inertia(body), k.V_NB_B[body]);
+        let (M, V) = (*k.robot.inertia(body), k.V_NB_B(body));
         M * A_NB_B[body] + V.cross_force(&(M * V)) - external[body]
     };
     let mut F_B_B: PerBody<_, J> = PerBody::filled(SpatialForce::zero());

@@ -45,7 +45,7 @@ pub fn jacobian<T: Real, const J: usize>(
     let p_NE = k.pose(frame).translation;
     // Twist of a body for one of its own unit twists, carried to E and turned to inertial axes.
     let at_E = |body: BodyId, V_B: SpatialVelocity<T>| {
-        let X_NB = &k.X_NB[body];
+        let X_NB = &k.X_NB(body);
         let V = SpatialVelocity::new(X_NB.rotation * V_B.angular, X_NB.rotation * V_B.linear);
         V.shifted_by(p_NE - X_NB.translation)
     };
@@ -72,8 +72,8 @@ pub fn bias_acceleration<T: Real, const J: usize>(
     let A_NB_B = spatial_accelerations(k, &Generalized::default());
     let p_BE_B = frame.X_BF.translation;
     let A = A_NB_B[frame.body].shifted_by(p_BE_B);
-    let V = k.V_NB_B[frame.body].shifted_by(p_BE_B);
-    let R_NB = k.X_NB[frame.body].rotation;
+    let V = k.V_NB_B(frame.body).shifted_by(p_BE_B);
+    let R_NB = k.X_NB(frame.body).rotation;
     SpatialAcceleration::new(R_NB * A.angular, R_NB * (A.linear + V.angular.cross(V.linear)))
 }
 
@@ -89,7 +89,7 @@ pub(crate) fn spatial_accelerations<T: Real, const J: usize>(
         let VJ_B = joint.velocity(k.state.v[j]);
         A_NB_B.links[j] = k.X_PB[j].velocity_to_child(&A_NB_B[joint.parent])
             + joint.velocity(nudot.joints[j])
-            + k.V_NB_B.links[j].cross(&VJ_B);
+            + k.V_NB_B(BodyId::Link(j)).cross(&VJ_B);
     }
     A_NB_B
 }

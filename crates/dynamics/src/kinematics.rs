@@ -1,6 +1,6 @@
 //! Poses and twists of all bodies, base to tips.
 
-use crate::{Frame, PerBody, Robot, State};
+use crate::{BodyId, Frame, PerBody, Robot, State};
 use wrasse_spatial::{Pose, Real, SpatialVelocity, Vec3};
 
 /// Poses and twists of one robot in one state. It borrows both, so they cannot go stale.
@@ -10,12 +10,9 @@ pub struct Kinematics<'a, T, const J: usize> {
     pub robot: &'a Robot<T, J>,
     /// Its state.
     pub state: &'a State<T, J>,
-    /// `X_PB` of the body that each joint carries.
-    pub X_PB: [Pose<T>; J],
-    /// `X_NB` of each body.
-    pub X_NB: PerBody<Pose<T>, J>,
-    /// `V_NB_B` of each body (rad/s, m/s).
-    pub V_NB_B: PerBody<SpatialVelocity<T>, J>,
+    pub(crate) X_PB: [Pose<T>; J],
+    X_NB: PerBody<Pose<T>, J>,
+    V_NB_B: PerBody<SpatialVelocity<T>, J>,
 }
 
 /// Poses and twists of all bodies.
@@ -45,6 +42,16 @@ pub fn kinematics<'a, T: Real, const J: usize>(
 }
 
 impl<T: Real, const J: usize> Kinematics<'_, T, J> {
+    /// Pose `X_NB` of a body.
+    #[inline(always)]
+    pub fn X_NB(&self, body: BodyId) -> Pose<T> {
+        self.X_NB[body]
+    }
+    /// Twist `V_NB_B` of a body (rad/s, m/s).
+    #[inline(always)]
+    pub fn V_NB_B(&self, body: BodyId) -> SpatialVelocity<T> {
+        self.V_NB_B[body]
+    }
     /// Pose `X_NF` of a frame.
     #[inline(always)]
     pub fn pose(&self, frame: &Frame<T>) -> Pose<T> {

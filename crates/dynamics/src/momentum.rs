@@ -21,8 +21,8 @@ pub fn momentum<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> Momentum<T
     let (mass, p_NScm_N) = k.centre_of_mass();
     let (mut angular, mut linear) = (Vec3::zero(), Vec3::zero());
     for body in k.robot.bodies() {
-        let X_NB = &k.X_NB[body];
-        let h_B = *k.robot.inertia(body) * k.V_NB_B[body];
+        let X_NB = &k.X_NB(body);
+        let h_B = *k.robot.inertia(body) * k.V_NB_B(body);
         let force = X_NB.rotation * h_B.force;
         linear += force;
         angular += X_NB.rotation * h_B.torque + (X_NB.translation - p_NScm_N).cross(force);

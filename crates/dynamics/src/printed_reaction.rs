@@ -39,7 +39,7 @@ pub fn printed_reaction<T: Real, const J: usize>(
             continue;
         }
         let (M, I) = (k.robot.inertia(body), *k.robot.inertia_of_parts(body));
-        let (X_NB, V, A) = (&k.X_NB[body], k.V_NB_B[body], A_NB_B[body]);
+        let (X_NB, V, A) = (&k.X_NB(body), k.V_NB_B(body), A_NB_B[body]);
         let (w, wdot) = (V.angular, A.angular);
         // m times the classical acceleration of Bcm, from m and the first moment alone.
         let h = M.first_moment;

@@ -1,6 +1,6 @@
 //! A wrench from outside on a tool, as a mission describes it.
 
-use wrasse_dynamics::{Frame, Kinematics, PerBody};
+use wrasse_dynamics::{BodyId, Frame, Kinematics, PerBody};
 use wrasse_flight::Axes;
 use wrasse_spatial::{Mat3, Real, SpatialForce, Vec3};
 use wrasse_vehicle::JOINTS;
@@ -47,10 +47,10 @@ impl AppliedWrench {
     /// What it is on the body that carries it, about the body's origin in its axes.
     fn on_body(&self, at: Instant, k: &Kinematics<'_, f64, JOINTS>) -> SpatialForce<f64> {
         let share = self.share(at);
-        let R_NB = k.X_NB[self.on.body].rotation;
+        let R_NB = k.X_NB(self.on.body).rotation;
         let R_NA = match self.axes {
             Axes::Inertial => Mat3::identity(),
-            Axes::Base => k.X_NB.base.rotation,
+            Axes::Base => k.X_NB(BodyId::Base).rotation,
         };
         let turned = |v: Vec3<f64>| R_NB.transpose_mul(R_NA * (v * share));
         let at_frame = SpatialForce::new(turned(self.wrench.torque), turned(self.wrench.force));

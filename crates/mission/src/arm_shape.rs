@@ -39,7 +39,7 @@ pub(crate) fn reach_margin<const J: usize>(
         if k.robot.joint(j).kind == JointKind::Prismatic {
             return None;
         }
-        points.push(k.X_NB[BodyId::Link(j)].translation);
+        points.push(k.X_NB(BodyId::Link(j)).translation);
     }
     let stretched: f64 = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
     let mount = points.last().filter(|_| points.len() > 1)?;

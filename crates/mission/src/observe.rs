@@ -187,7 +187,7 @@ fn mounts(
     dynamics: &Dynamics<f64, JOINTS>,
 ) -> ((f64, f64), Vec3<f64>) {
     let forces = inverse_dynamics(k, &dynamics.nudot, &PerBody::filled(SpatialForce::zero()));
-    let X_NB = &k.X_NB[BodyId::Base];
+    let X_NB = &k.X_NB(BodyId::Base);
     let p_NBcm = X_NB.point(k.robot.inertia(BodyId::Base).centre_of_mass());
     let (mut largest, mut total) = ((0.0_f64, 0.0_f64), Vec3::zero());
     for j in k.robot.joints().filter(|&j| k.robot.joint(j).parent == BodyId::Base) {

@@ -63,7 +63,7 @@ fn arms(case: &Case, k: &Kinematics<'_, f64, JOINTS>) -> Vec<Vec<[f64; 3]>> {
     for tip in robot.joints().filter(|&j| is_tip(j)) {
         let mut line: Vec<[f64; 3]> = robot
             .path_to_base(BodyId::Link(tip))
-            .map(|j| k.X_NB[BodyId::Link(j)].translation.to_array())
+            .map(|j| k.X_NB(BodyId::Link(j)).translation.to_array())
             .collect();
         line.reverse();
         let on_tip = case.vehicle.frames.iter().filter(|f| f.frame.body == BodyId::Link(tip));

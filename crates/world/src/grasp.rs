@@ -86,7 +86,7 @@ impl<const J: usize> World<J> {
         let none = PerBody::filled(SpatialForce::zero());
         let own = inverse_dynamics(&kinematics(alone, &at_rest), &before.velocity(), &none).force;
         let k = kinematics(&self.robot, &at_rest);
-        let X_NB = &k.X_NB[grip];
+        let X_NB = &k.X_NB(grip);
         let h_N = SpatialForce::new(body.angular, body.linear);
         let about_Bo = h_N.about(X_NB.translation - body.p_NTcm_N);
         let brought = SpatialForce::new(
@@ -111,7 +111,7 @@ impl<const J: usize> World<J> {
         let after = State { V_NB_B: found.nudot.base, v: found.nudot.joints, ..*before };
         let k_after = kinematics(&self.robot, &after);
         let mut twice = after.V_NB_B.power(&(own.base + found.force.base))
-            + k_after.V_NB_B[grip].power(&brought)
+            + k_after.V_NB_B(grip).power(&brought)
             - before.V_NB_B.power(&own.base);
         for j in self.robot.joints() {
             twice += after.v[j] * found.force.joints[j] - before.v[j] * own.joints[j];
@@ -128,7 +128,7 @@ impl<const J: usize> World<J> {
         let (frame, payload) = self.held.remove(number);
         let state = self.state();
         let k = kinematics(&self.robot, &state);
-        let V_NF_F = k.V_NB_B[frame.body];
+        let V_NF_F = k.V_NB_B(frame.body);
         let V_NF_F = frame.X_BF.velocity_to_child(&V_NF_F);
         let body = FreeBody::new(payload, &k.pose(&frame), &V_NF_F);
         let m = self.mass - payload.M_F_F.mass;

@@ -67,11 +67,11 @@ impl<const J: usize> World<J> {
         // (mass, centre of mass, linear momentum, angular momentum about it)
         let mut parts = Vec::with_capacity(1 + J + self.free.len());
         for body in self.robot.bodies() {
-            let (X_NB, M) = (&k.X_NB[body], self.robot.inertia(body));
+            let (X_NB, M) = (&k.X_NB(body), self.robot.inertia(body));
             if M.mass == 0.0 {
                 continue;
             }
-            let h_B = *M * k.V_NB_B[body];
+            let h_B = *M * k.V_NB_B(body);
             let p_BBcm_B = M.centre_of_mass();
             parts.push((
                 M.mass,

@@ -19,9 +19,9 @@ fn locked<const J: usize>(
 ) -> (SpatialInertia<f64>, SpatialMomentum<f64>) {
     let (mut M, mut h) = (SpatialInertia::zero(), SpatialForce::zero());
     for body in k.robot.bodies() {
-        let (X_NB, M_B) = (&k.X_NB[body], k.robot.inertia(body));
+        let (X_NB, M_B) = (&k.X_NB(body), k.robot.inertia(body));
         M += X_NB.inertia_to_parent(M_B);
-        h += X_NB.force_to_parent(&(*M_B * k.V_NB_B[body]));
+        h += X_NB.force_to_parent(&(*M_B * k.V_NB_B(body)));
     }
     (M, h)
 }
@@ -95,7 +95,8 @@ impl<const J: usize> World<J> {
         t: f64,
         within: f64,
     ) -> Acting<J> {
-        let (w, angle, rate) = (k.V_NB_B.base.angular, system.gimbal_angle, system.gimbal_rate);
+        let (w, angle, rate) =
+            (k.V_NB_B(BodyId::Base).angular, system.gimbal_angle, system.gimbal_rate);
         let wheel_torque = self.wheels.torques(&system.wheel_momentum, w);
         let gimbal_acceleration = self.gyros.accelerations(&angle, &rate, w);
         // What they hold, h, turns with the base: the bodies feel -ḣ - w × h.
@@ -131,7 +132,7 @@ impl<const J: usize> World<J> {
             work.x += found.force.joints[j] * state.v[j];
         }
         for body in self.robot.bodies() {
-            work.z += k.V_NB_B[body].power(&acting.outside[body]);
+            work.z += k.V_NB_B(body).power(&acting.outside[body]);
         }
         Flow {
             turn: rotation_vector_rate(d.turn, w),
@@ -192,7 +193,7 @@ fn about_centre_of_mass<const J: usize>(
 ) -> (Vec3<f64>, Vec3<f64>) {
     let (mut force, mut torque) = (Vec3::zero(), Vec3::zero());
     let mut add = |body: BodyId| {
-        let X_NB = &k.X_NB[body];
+        let X_NB = &k.X_NB(body);
         let f = X_NB.rotation * outside[body].force;
         force += f;
         torque += X_NB.rotation * outside[body].torque + (X_NB.translation - p_NScm_N).cross(f);
@@ -207,7 +208,7 @@ fn of_thrusters<const J: usize>(
     thrust_B: &SpatialForce<f64>,
     p_NScm_N: Vec3<f64>,
 ) -> (Vec3<f64>, Vec3<f64>) {
-    let X_NB = &k.X_NB.base;
+    let X_NB = &k.X_NB(BodyId::Base);
     let force = X_NB.rotation * thrust_B.force;
     (force, X_NB.rotation * thrust_B.torque + (X_NB.translation - p_NScm_N).cross(force))
 }

@@ -41,7 +41,7 @@ fn world(equipment: &Equipment, stepper: Stepper) -> World<J> {
         Box::new(|Instant { time: t, .. }, k| {
             // A force that keeps its direction in inertial axes, on a body that turns.
             let mut on = PerBody::filled(SpatialForce::zero());
-            let force = k.X_NB[BodyId::Link(2)].rotation.transpose_mul(vec3(0.5, t, -0.4));
+            let force = k.X_NB(BodyId::Link(2)).rotation.transpose_mul(vec3(0.5, t, -0.4));
             on[BodyId::Link(2)] = SpatialForce::new(vec3(0.0, -0.2, 0.1), force);
             on
         }),

@@ -145,7 +145,7 @@ fn rigid(world: &World<J>) -> (SpatialInertia<f64>, SpatialForce<f64>) {
         h += X.force_to_parent(&(*M_B * V_B));
     };
     for body in world.robot().bodies() {
-        add(&k.X_NB[body], world.robot().inertia(body), k.V_NB_B[body]);
+        add(&k.X_NB(body), world.robot().inertia(body), k.V_NB_B(body));
     }
     for body in world.free_bodies() {
         add(&body.pose(), &body.matter.M_F_F, body.twist());

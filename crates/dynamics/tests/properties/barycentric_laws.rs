@@ -50,7 +50,7 @@ fn a_serial_arm_with_payload_obeys_equations_6_and_7() {
             let last = i + 1 == n;
             let l_i = if last { s.frame.X_BF } else { s.robot.joint(i + 1).X_PB_zero }.translation;
             let lambda = (l_i * carried - M.centre_of_mass() * M.mass) * per_mass;
-            p += k.X_NB.links[i].rotation * lambda;
+            p += k.X_NB(BodyId::Link(i)).rotation * lambda;
         }
         let R_NPayload = k.pose(&s.frame).rotation;
         p += -(R_NPayload * s.load.M_F_F.first_moment * per_mass);
@@ -131,9 +131,9 @@ fn the_attitude_held_jacobian_turns_the_vectors_behind_each_joint() {
             &s.state.X_NB.rotation,
         );
         s.robot.joints().fold(0.0, |worst: f64, j| {
-            let z = k.X_NB.links[j].rotation * s.robot.joint(j).axis_B;
+            let z = k.X_NB(BodyId::Link(j)).rotation * s.robot.joint(j).axis_B;
             let behind = s.robot.bodies().filter(|b| s.robot.path_to_base(*b).any(|at| at == j));
-            let arm = behind.fold(Vec3::zero(), |sum, b| sum + k.X_NB[b].rotation * lambda[b]);
+            let arm = behind.fold(Vec3::zero(), |sum, b| sum + k.X_NB(b).rotation * lambda[b]);
             worst.max(gap_at(&held[j].linear, &z.cross(arm), 1.0))
         })
     });

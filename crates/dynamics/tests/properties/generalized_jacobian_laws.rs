@@ -40,7 +40,7 @@ impl<'a> Posture<'a> {
     /// Locked inertia of the whole system about its centre of mass, inertial axes, body by body.
     fn locked_inertia(&self, p_NScm: Vec3<f64>) -> Sym3<f64> {
         self.k.robot.bodies().fold(Sym3::zero(), |I, body| {
-            let X_NB = &self.k.X_NB[body];
+            let X_NB = &self.k.X_NB(body);
             I + X_NB.inertia_to_parent(self.k.robot.inertia(body)).about(p_NScm).rotational
         })
     }
@@ -171,8 +171,8 @@ fn a_tip_wrench_is_held_by_the_generalized_jacobian_and_accelerates_the_base() {
         let force = Generalized { base: SpatialForce::zero(), joints };
         let mut external = PerBody::filled(SpatialForce::zero());
         let X_NF = posture.k.pose(&s.frame);
-        let at_Bo = F_N.about(posture.k.X_NB[s.frame.body].translation - X_NF.translation);
-        let R = posture.k.X_NB[s.frame.body].rotation;
+        let at_Bo = F_N.about(posture.k.X_NB(s.frame.body).translation - X_NF.translation);
+        let R = posture.k.X_NB(s.frame.body).rotation;
         external[s.frame.body] =
             SpatialForce::new(R.transpose_mul(at_Bo.torque), R.transpose_mul(at_Bo.force));
         let found = forward_dynamics(&posture.k, &force, &external);

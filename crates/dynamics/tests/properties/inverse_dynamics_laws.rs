@@ -23,9 +23,9 @@ fn pushed(scene: &Scene) -> PerBody<SpatialForce<f64>, JOINTS> {
     let k = kinematics(&scene.robot, &scene.state);
     let mut pushed = nothing();
     for body in scene.robot.bodies() {
-        let h_B = *robot.inertia(body) * k_moving.V_NB_B[body];
-        let rate = k_moving.X_NB[body].force_to_parent(&h_B).rate();
-        pushed[body] = rate - k.X_NB[body].force_to_parent(&scene.external[body]);
+        let h_B = *robot.inertia(body) * k_moving.V_NB_B(body);
+        let rate = k_moving.X_NB(body).force_to_parent(&h_B).rate();
+        pushed[body] = rate - k.X_NB(body).force_to_parent(&scene.external[body]);
     }
     pushed
 }
@@ -45,7 +45,7 @@ fn every_joint_carries_the_momentum_rate_of_the_bodies_behind_it() {
             };
             let sum = s.robot.bodies().filter(behind);
             let F_N = sum.fold(SpatialForce::zero(), |F, b| F + alone[b]);
-            let F_B = k.X_NB[body].force_to_child(&F_N);
+            let F_B = k.X_NB(body).force_to_child(&F_N);
             let along = match body {
                 BodyId::Base => gap_at(&dynamics.force.base, &F_B, scale),
                 BodyId::Link(j) => {
@@ -69,7 +69,7 @@ fn the_forces_are_mass_times_acceleration_plus_bias_less_what_comes_from_outside
         for body in s.robot.bodies() {
             // Σ Jᵀ F, with the wrench in inertial axes at the body's origin.
             let J_body = jacobian(&k, &Frame { body, X_BF: Pose::identity() });
-            let (R, F) = (k.X_NB[body].rotation, s.external[body]);
+            let (R, F) = (k.X_NB(body).rotation, s.external[body]);
             let F_N = SpatialForce::new(R * F.torque, R * F.force);
             let columns = J_body.base.iter().chain(&J_body.joints[..s.robot.joint_count()]);
             for (row, column) in columns.enumerate() {

@@ -132,7 +132,7 @@ fn the_origin_of_a_joint_stays_on_its_parent() {
         s.robot.joints().fold(0.0, |worst: f64, j| {
             let mut state = s.state;
             state.q[j] = 0.0;
-            let at_zero = kinematics(&s.robot, &state).X_NB[BodyId::Link(j)].translation;
+            let at_zero = kinematics(&s.robot, &state).X_NB(BodyId::Link(j)).translation;
             let off = k.joint_origin(j) - at_zero;
             worst.max(off.norm() / size(&at_zero).max(1.0))
         })

@@ -14,8 +14,8 @@ fn largest_share(scene: &Scene) -> f64 {
     let k = kinematics(&scene.robot, &scene.state);
     let p_NScm = k.centre_of_mass().1;
     scene.robot.bodies().fold(0.0, |m: f64, body| {
-        let h_B = *scene.robot.inertia(body) * k.V_NB_B[body];
-        m.max(size(&k.X_NB[body].force_to_parent(&h_B).about(p_NScm)))
+        let h_B = *scene.robot.inertia(body) * k.V_NB_B(body);
+        m.max(size(&k.X_NB(body).force_to_parent(&h_B).about(p_NScm)))
     })
 }
 
@@ -80,7 +80,7 @@ fn momentum_changes_by_the_external_wrench_about_the_centre_of_mass() {
         let h = momentum_in_time(s, &forward_dynamics(&k, &motors, &s.external));
         let p_NScm = k.centre_of_mass().1;
         let wrench = s.robot.bodies().fold(SpatialForce::zero(), |sum, body| {
-            sum + k.X_NB[body].force_to_parent(&s.external[body]).about(p_NScm)
+            sum + k.X_NB(body).force_to_parent(&s.external[body]).about(p_NScm)
         });
         let scale = largest_share(s).max(size(&wrench));
         gap_at(&h.linear.rate(), &wrench.force, scale).max(gap_at(

@@ -33,7 +33,7 @@ fn parts(s: &Scene) -> Vec<Part> {
     let moving = in_time(&s.state, &s.nudot);
     let k = kinematics(&robot, &moving);
     let part = |body: BodyId| {
-        let (M, X, V) = (robot.inertia(body), &k.X_NB[body], &k.V_NB_B[body]);
+        let (M, X, V) = (robot.inertia(body), &k.X_NB(body), &k.V_NB_B(body));
         let p_BBcm_B = M.centre_of_mass();
         let v = X.rotation * V.shifted_by(p_BBcm_B).linear;
         let spin = X.rotation * (M.central() * V.angular);
@@ -111,7 +111,7 @@ fn a_tip_wrench_relieves_the_mount_by_itself() {
         pushed[body] = s.external[body];
         let free = mount_reaction(&k, &inverse_dynamics(&k, &s.nudot, &nothing()), root);
         let relieved = mount_reaction(&k, &inverse_dynamics(&k, &s.nudot, &pushed), root);
-        let F_e = k.X_NB[body].force_to_parent(&pushed[body]).about(k.joint_origin(root));
+        let F_e = k.X_NB(body).force_to_parent(&pushed[body]).about(k.joint_origin(root));
         gap_at(&(free - relieved), &F_e, size(&free).max(size(&relieved)))
     });
 }
@@ -135,7 +135,7 @@ fn the_attitude_torque_of_a_held_base_is_the_mount_moments_and_their_levers() {
         let held = attitude_held(s);
         let k = kinematics(&held.robot, &held.state);
         let dynamics = inverse_dynamics(&k, &held.nudot, &nothing());
-        let p_0 = k.X_NB.base.point(held.robot.inertia(BodyId::Base).centre_of_mass());
+        let p_0 = k.X_NB(BodyId::Base).point(held.robot.inertia(BodyId::Base).centre_of_mass());
         let sum = mounts(&held).fold(Vec3::zero(), |sum, root| {
             let F = mount_reaction(&k, &dynamics, root);
             sum + F.torque + (k.joint_origin(root) - p_0).cross(F.force)
@@ -216,10 +216,10 @@ fn a_fixed_part_adds_its_own_spin_to_the_printed_moment() {
         let robot = s.robot.cast::<Dual<f64>>();
         let moving = in_time(&s.state, &s.nudot);
         let moving = kinematics(&robot, &moving);
-        let w_B = moving.V_NB_B[s.frame.body].angular;
+        let w_B = moving.V_NB_B(s.frame.body).angular;
         let (R, I_F) = (s.frame.X_BF.rotation, s.load.I_parts_F.to_mat3());
         let I_B = Sym3::symmetric_part(&(R * I_F * R.transpose()));
-        let spin = moving.X_NB[s.frame.body].rotation * (Sym3::from_f64(I_B) * w_B);
+        let spin = moving.X_NB(s.frame.body).rotation * (Sym3::from_f64(I_B) * w_B);
         gap_at(&(with - without), &spin.rate(), size(&with).max(size(&spin.rate())))
     });
 }

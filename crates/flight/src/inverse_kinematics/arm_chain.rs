@@ -127,7 +127,7 @@ impl<T: Scalar> ArmChain<T> {
         for body in robot.bodies() {
             // A body off the way stands still on the one from which its branch leaves.
             let (i, carrier) = place_on_way(robot, &joints, body);
-            let R_carrier = k.X_NB[carrier].rotation.transpose() * k.X_NB[body].rotation;
+            let R_carrier = k.X_NB(carrier).rotation.transpose() * k.X_NB(body).rotation;
             vectors[i] += R_B0[i] * (R_carrier * lambda[body]);
         }
         Ok(Self::new(robot, tool, joints, &R_B0, vectors))

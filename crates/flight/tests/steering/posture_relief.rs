@@ -77,7 +77,7 @@ fn the_demand_is_what_inverse_dynamics_asks_of_the_attitude_control() {
         let state = State { X_NB: random.pose(3.0), ..at(q) };
         let (k, F) = (kinematics(&robot, &state), random_wrench(&mut random));
         // The wrench at the body's origin, in its axes.
-        let X_NE = k.X_NB[tool.body];
+        let X_NE = k.X_NB(tool.body);
         let at_body = F.about(X_NE.translation - k.pose(&tool).translation);
         let turned = |v: Vec3<f64>| X_NE.rotation.transpose_mul(v);
         let mut external = PerBody::filled(SpatialForce::zero());
