@@ -96,6 +96,12 @@ impl<T: Real> Real for Dual<T> {
         (Self::new(s, c * self.derivative), Self::new(c, -s * self.derivative))
     }
     #[inline(always)]
+    fn atan2(self, x: Self) -> Self {
+        let square = self.value * self.value + x.value * x.value;
+        let turn = x.value * self.derivative - self.value * x.derivative;
+        Self::new(self.value.atan2(x.value), turn / square)
+    }
+    #[inline(always)]
     fn lt(self, other: Self) -> Self::Mask {
         self.value.lt(other.value)
     }
@@ -137,6 +143,8 @@ mod tests {
         check(x().sqrt(), 0.7_f64.sqrt(), 0.5 / 0.7_f64.sqrt());
         let (s, c) = x().sin_cos();
         check(s, 0.7_f64.sin(), 0.7_f64.cos());
+        check((x() * x()).atan2(x()), 0.7_f64.atan(), 1.0 / 1.49);
+        check(x().atan2(x() * x()), (1.0 / 0.7_f64).atan(), -1.0 / 1.49);
         check(c, 0.7_f64.cos(), -0.7_f64.sin());
     }
 

@@ -8,6 +8,7 @@
 
 mod dual;
 mod inertia;
+mod lanes;
 mod matrix;
 mod motion;
 mod pose;
@@ -15,10 +16,12 @@ mod quaternion;
 mod real;
 pub mod references;
 mod rotation_vector;
+mod trigonometry;
 mod vector;
 
 pub use dual::Dual;
 pub use inertia::{ArticulatedInertia, SpatialInertia};
+pub use lanes::{LaneMask, Lanes};
 pub use matrix::{Mat3, Sym3};
 pub use motion::{SpatialAcceleration, SpatialForce, SpatialMomentum, SpatialVelocity};
 pub use pose::Pose;

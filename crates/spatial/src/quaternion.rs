@@ -1,6 +1,6 @@
 //! Unit quaternions, named `w x y z`.
 
-use crate::{Mat3, Real, Scalar, Vec3, vec3};
+use crate::{Mat3, Real, Vec3, vec3};
 use core::ops::Mul;
 
 /// Unit quaternion `quat_NB`: turns B components into N components, like `R_NB`.
@@ -84,42 +84,54 @@ impl<T: Real> Quat<T> {
     }
 }
 
-impl<T: Scalar> Quat<T> {
+impl<T: Real> Quat<T> {
     /// Rotation vector (rad, |r| ≤ π) of the shorter way: the inverse of [`exp`](Self::exp).
+    #[inline(always)]
     pub fn log(&self) -> Vec3<T> {
-        let q =
-            if self.w < T::zero() { Self::new(-self.w, -self.x, -self.y, -self.z) } else { *self };
-        let s = q.vector().norm();
+        let side = T::select(self.w.lt(T::zero()), -T::one(), T::one());
+        let (w, v) = (self.w * side, self.vector() * side);
+        let (s, two) = (v.norm(), T::from_f64(2.0));
         // atan2(s, w)·2/s → 2/w as s → 0, with an error of s²·2/3.
-        let small = s < T::from_f64(1e-8);
-        let ratio =
-            if small { T::from_f64(2.0) / q.w } else { T::from_f64(2.0) * s.atan2(q.w) / s };
-        q.vector() * ratio
+        let small = s.lt(T::from_f64(1e-8));
+        let divisor = T::select(small, T::one(), s);
+        v * T::select(small, two / w, two * s.atan2(w) / divisor)
     }
     /// From a rotation matrix (Shepperd: the largest component first, so that nothing cancels).
+    #[inline(always)]
     pub fn from_matrix(R: &Mat3<T>) -> Self {
         let [a, b, c] = R.rows;
-        let (one, half) = (T::one(), T::from_f64(0.5));
-        let trace = a.x + b.y + c.z;
-        let root = |x: T| (one + x).sqrt();
-        let q = if trace > a.x.max(b.y).max(c.z) {
-            let s = root(trace);
-            let t = half / s;
-            Self::new(half * s, (c.y - b.z) * t, (a.z - c.x) * t, (b.x - a.y) * t)
-        } else if a.x >= b.y && a.x >= c.z {
-            let s = root(a.x - b.y - c.z);
-            let t = half / s;
-            Self::new((c.y - b.z) * t, half * s, (a.y + b.x) * t, (a.z + c.x) * t)
-        } else if b.y >= c.z {
-            let s = root(b.y - a.x - c.z);
-            let t = half / s;
-            Self::new((a.z - c.x) * t, (a.y + b.x) * t, half * s, (b.z + c.y) * t)
-        } else {
-            let s = root(c.z - a.x - b.y);
-            let t = half / s;
-            Self::new((b.x - a.y) * t, (a.z + c.x) * t, (b.z + c.y) * t, half * s)
-        };
+        let one = T::one();
+        // Four times the square of each component, and its products with the others.
+        let squares = [
+            one + (a.x + b.y + c.z),
+            one + (a.x - b.y - c.z),
+            one + (b.y - a.x - c.z),
+            one + (c.z - a.x - b.y),
+        ];
+        let (x, y, z) = (c.y - b.z, a.z - c.x, b.x - a.y);
+        let (xy, xz, yz) = (a.y + b.x, a.z + c.x, b.z + c.y);
+        let by_component = [
+            Self::new(squares[0], x, y, z),
+            Self::new(x, squares[1], xy, xz),
+            Self::new(y, xy, squares[2], yz),
+            Self::new(z, xz, yz, squares[3]),
+        ];
+        let (mut q, mut largest) = (by_component[0], squares[0]);
+        for i in 1..4 {
+            let larger = largest.lt(squares[i]);
+            largest = T::select(larger, squares[i], largest);
+            q = Self::select(larger, &by_component[i], &q);
+        }
         q.normalized()
+    }
+    #[inline(always)]
+    fn select(mask: T::Mask, a: &Self, b: &Self) -> Self {
+        Self::new(
+            T::select(mask, a.w, b.w),
+            T::select(mask, a.x, b.x),
+            T::select(mask, a.y, b.y),
+            T::select(mask, a.z, b.z),
+        )
     }
 }
 

@@ -1,5 +1,6 @@
-//! The scalar that the core is written over: `f64`, `f32`, duals, and later lanes.
+//! The scalar that the core is written over: `f64`, `f32`, duals, and lanes.
 
+use crate::trigonometry::{sin_cos_f32, sin_cos_f64};
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -8,6 +9,7 @@ mod sealed {
     impl Sealed for f64 {}
     impl Sealed for f32 {}
     impl<T: Sealed> Sealed for crate::Dual<T> {}
+    impl<const N: usize> Sealed for crate::Lanes<N> {}
 }
 
 /// A real number, or several of them side by side. Kernels never branch on its value: they
@@ -38,8 +40,12 @@ pub trait Real:
     /// Square root.
     #[must_use]
     fn sqrt(self) -> Self;
-    /// Sine and cosine of an angle (rad), from one portable source.
+    /// Sine and cosine of an angle (rad), from one portable source: within one unit in the last place
+    /// of the result (`f64`), within one unit in the last place of 1 (`f32`).
     fn sin_cos(self) -> (Self, Self);
+    /// Angle of the point (x, y) = (`x`, `self`), rad in (-π, π].
+    #[must_use]
+    fn atan2(self, x: Self) -> Self;
     /// `self < other`.
     fn lt(self, other: Self) -> Self::Mask;
     /// `a` where the mask holds, else `b`.
@@ -88,9 +94,6 @@ pub trait Real:
 pub trait Scalar: Real<Mask = bool> + PartialOrd {
     /// As `f64`.
     fn to_f64(self) -> f64;
-    /// Angle of the point (x, y) = (`x`, `self`), rad in (-π, π].
-    #[must_use]
-    fn atan2(self, x: Self) -> Self;
     /// Inverse cosine (rad); the argument must lie in [-1, 1].
     #[must_use]
     fn acos(self) -> Self;
@@ -126,6 +129,10 @@ macro_rules! float {
                 $sin_cos(self)
             }
             #[inline(always)]
+            fn atan2(self, x: Self) -> Self {
+                $atan2(self, x)
+            }
+            #[inline(always)]
             fn lt(self, other: Self) -> bool {
                 self < other
             }
@@ -137,9 +144,6 @@ macro_rules! float {
         impl Scalar for $float {
             fn to_f64(self) -> f64 {
                 f64::from(self)
-            }
-            fn atan2(self, x: Self) -> Self {
-                $atan2(self, x)
             }
             fn acos(self) -> Self {
                 $acos(self)
@@ -156,8 +160,8 @@ macro_rules! float {
         }
     };
 }
-float!(f64, libm::sqrt, libm::sincos, libm::atan2, libm::acos, libm::exp, libm::log);
-float!(f32, libm::sqrtf, libm::sincosf, libm::atan2f, libm::acosf, libm::expf, libm::logf);
+float!(f64, libm::sqrt, sin_cos_f64, libm::atan2, libm::acos, libm::exp, libm::log);
+float!(f32, libm::sqrtf, sin_cos_f32, libm::atan2f, libm::acosf, libm::expf, libm::logf);
 
 #[cfg(test)]
 mod tests {
@@ -188,7 +192,7 @@ mod tests {
             let x = 0.3 * f64::from(k);
             let (s, c) = Real::sin_cos(x);
             assert!((s - f64::sin(x)).abs() < 3e-16 && (c - f64::cos(x)).abs() < 3e-16);
-            assert!((Scalar::atan2(s, c) - f64::atan2(s, c)).abs() < 1e-15);
+            assert!((Real::atan2(s, c) - f64::atan2(s, c)).abs() < 1e-15);
             assert!((Scalar::acos(c) - f64::acos(c)).abs() < 1e-15);
             assert!((Scalar::exp(x) / f64::exp(x) - 1.0).abs() < 1e-15);
             assert!((Scalar::ln(f64::exp(x)) - x).abs() < 1e-14);

@@ -79,3 +79,6 @@ pub enum Bland1977 {}
 /// Springer, 2014.
 #[derive(Debug)]
 pub enum MarkleyCrassidis2014 {}
+/// W. J. Cody, W. Waite, *Software Manual for the Elementary Functions*, Prentice-Hall, 1980.
+#[derive(Debug)]
+pub enum CodyWaite1980 {}

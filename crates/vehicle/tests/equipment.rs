@@ -2,7 +2,7 @@
 
 use wrasse_document::{Document, Step, at, render};
 use wrasse_hardware::{ControlMomentGyro, Thruster};
-use wrasse_spatial::{Real, Scalar, Vec3, vec3};
+use wrasse_spatial::{Real, Vec3, vec3};
 use wrasse_vehicle::{
     Equipment, EquipmentFile, Grade, Vehicle, hardware, read_equipment, read_vehicle,
 };
@@ -147,7 +147,7 @@ fn manipulability(equipment: &Equipment) -> f64 {
 /// The closed form of the pyramid of 53.13 deg, cosine 0.6, sine 0.8.
 #[test]
 fn the_momentum_of_a_pyramid_is_that_of_its_closed_form() {
-    let skew = Scalar::atan2(0.8_f64, 0.6).to_degrees();
+    let skew = Real::atan2(0.8_f64, 0.6).to_degrees();
     let pyramid = array(&format!("\"pyramid\"\nskew_deg = {skew}"));
     let (c, s) = (0.6, 0.8);
     let mut worst: f64 = 0.0;

@@ -68,7 +68,7 @@ fn outline(edges: &[Vec3<f64>], middle: Vec3<f64>, normal: Vec3<f64>) -> Vec<Vec
     let Some(first) = edges.first() else { return vec![] };
     let (e1, e2) = (unit(*first), normal.cross(unit(*first)));
     // Each edge pointing to one side, by its angle.
-    let angle = |e: &Vec3<f64>| wrasse_spatial::Scalar::atan2(e.dot(e2), e.dot(e1));
+    let angle = |e: &Vec3<f64>| wrasse_spatial::Real::atan2(e.dot(e2), e.dot(e1));
     let turned = edges.iter().map(|e| {
         let backwards = e.dot(e2) < 0.0 || (e.dot(e2) == 0.0 && e.dot(e1) < 0.0);
         if backwards { -*e } else { *e }
