@@ -20,20 +20,26 @@ pub struct NonFinite {
 }
 
 impl<const J: usize> World<J> {
-    /// Advance by `period` (s): the period that the commands were set for, at once or in parts.
+    /// Advance by `period` (s): the period that the commands were set for, at once or in parts. No heap
+    /// is touched.
     ///
     /// # Errors
     /// If a number is no longer finite.
     pub fn advance(&mut self, period: f64) -> Result<(), NonFinite> {
-        let mut propellant = 0.0;
-        for (from, to) in self.stretches(period) {
+        let (mut propellant, mut from, mut bend) = (0.0, 0.0, f64::NEG_INFINITY);
+        // In stretches in which nothing bends: steps that do not reach over a bend keep their order.
+        loop {
+            let next = self.next_bend(bend, period);
+            let to = next.map_or(period, |bend| bend - self.into_period);
             self.stretch_middle = self.into_period + 0.5 * (from + to);
             match self.stepper {
                 Stepper::Fixed { step } => self.advance_evenly(from, to, step)?,
                 Stepper::Adaptive { tolerance } => self.advance_adaptively(from, to, tolerance)?,
             }
-            let (from, to) = (self.into_period + from, self.into_period + to);
-            propellant += self.thrusters.propellant(from, to);
+            let (begins, ends) = (self.into_period + from, self.into_period + to);
+            propellant += self.thrusters.propellant(begins, ends);
+            let Some(passed) = next else { break };
+            (from, bend) = (to, passed);
         }
         self.into_period += period;
         add_with_care(&mut self.time, period, &mut self.time_carry);
@@ -44,25 +50,16 @@ impl<const J: usize> World<J> {
         self.check_free_bodies()
     }
 
-    /// The coming `period` (s) in stretches in which no thruster's force and no outside wrench bends:
-    /// steps that do not reach over a bend keep their order. From now (s).
-    fn stretches(&self, period: f64) -> Vec<(f64, f64)> {
+    /// The first instant behind `after` in the coming `period` (s) at which a thruster's force or an
+    /// outside wrench bends (s into the set-points).
+    fn next_bend(&self, after: f64, period: f64) -> Option<f64> {
         let now = self.into_period;
-        let mut from = 0.0;
-        let mut stretches = Vec::new();
-        let mut bends = self.thrusters.bends(now, now + period);
         // A bend at an end of the period, but for the rounding of sums of periods, is no bend in it.
         let near = 1e-9 * period;
         let outside = self.outside_bends.iter().map(|bend| bend - self.period_start);
-        bends.extend(outside.filter(|t| *t > now + near && *t < now + period - near));
-        bends.sort_by(f64::total_cmp);
-        bends.dedup_by(|a, b| *a - *b < near);
-        for bend in bends {
-            stretches.push((from, bend - now));
-            from = bend - now;
-        }
-        stretches.push((from, period));
-        stretches
+        let outside = outside.filter(|t| *t > now + near && *t < now + period - near);
+        let all = self.thrusters.bends(now, now + period).chain(outside);
+        all.filter(|t| *t - after >= near).min_by(f64::total_cmp)
     }
 
     fn advance_evenly(&mut self, from: f64, to: f64, step: f64) -> Result<(), NonFinite> {

@@ -40,9 +40,24 @@ impl<const J: usize> World<J> {
         actuators: &ActuatorCommand<f64>,
         period: f64,
     ) -> Vec<Saturation> {
+        let mut cut = Vec::new();
+        self.command_noting(drives, torque_B, actuators, period, &mut cut);
+        cut
+    }
+
+    /// The same, and what the limits cut is put into `cut` in place of what is there: no heap is touched
+    /// once it is large enough.
+    pub fn command_noting(
+        &mut self,
+        drives: &[Drive],
+        torque_B: Vec3<f64>,
+        actuators: &ActuatorCommand<f64>,
+        period: f64,
+        cut: &mut Vec<Saturation>,
+    ) {
+        cut.clear();
         let gone = self.into_period;
         (self.period_start, self.into_period) = (self.time, 0.0);
-        let mut cut = Vec::new();
         for (j, drive) in drives.iter().enumerate().take(J) {
             self.drives[j] = match (*drive, self.limits[j].effort) {
                 (Drive::Effort(tau), Some(limit)) if tau.abs() > limit => {
@@ -54,10 +69,9 @@ impl<const J: usize> World<J> {
         }
         self.actuator_torque_B = Vec3::zero();
         if self.base == BaseAttitude::Controlled {
-            self.actuator_torque_B = self.within_actuator_limits(torque_B, period, &mut cut);
+            self.actuator_torque_B = self.within_actuator_limits(torque_B, period, cut);
         }
-        self.command_equipment(actuators, (gone, period), &mut cut);
-        cut
+        self.command_equipment(actuators, (gone, period), cut);
     }
 
     /// Set wheels, gyros and thrusters for a period (s), `gone` (s) after the last began.

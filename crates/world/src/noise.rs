@@ -19,6 +19,10 @@ impl Noise {
         words.set_stream(stream);
         Self { words }
     }
+    /// The next word of the stream: a seed for something else.
+    pub fn word(&mut self) -> u64 {
+        self.words.next_u64()
+    }
     /// Uniform between 0 and 1, neither end included (–).
     pub fn uniform(&mut self) -> f64 {
         // 52 bits and a half of the last: exact, and as far from 0 as from 1.
@@ -29,6 +33,15 @@ impl Noise {
     pub fn normal(&mut self) -> f64 {
         normal_quantile(self.uniform())
     }
+    /// Normal, of mean 0 and standard deviation 1 before all beyond ± `bound` was cut away (–). One
+    /// number from one word.
+    pub fn bounded_normal(&mut self, bound: f64) -> f64 {
+        let below = 0.5 * libm::erfc(bound * core::f64::consts::FRAC_1_SQRT_2);
+        let p = below + (1.0 - 2.0 * below) * self.uniform();
+        normal_quantile(p).clamp(-bound, bound)
+    }
+    /// No normal number is farther from 0 than this (–): the uniform ones end at 2⁻⁵³ from 0 and 1.
+    pub const FARTHEST_NORMAL: f64 = 8.21;
 }
 
 /// The number that a normal variable stays below with probability `p`, 0 < p < 1 (–).
@@ -89,6 +102,26 @@ mod tests {
             assert!(off < 4e-15, "at {p:e} off by {off:e}");
         }
         assert_eq!(normal_quantile(0.75), -normal_quantile(0.25));
+    }
+
+    /// Variance of the normal distribution cut at ± b: 1 - 2 b φ(b) / (2 Φ(b) - 1), at b = 1.5 by mpmath
+    /// 0.551524; of n draws
+    /// it is met within five of √((m4 - m2²)/n) < 0.0031, as m4 < b² m2. Measured 0.0024 off.
+    #[test]
+    fn a_bounded_normal_stays_within_its_bound_and_has_the_variance_of_what_is_left() {
+        let (n, mut noise) = (100_000, Noise::new(7, 4));
+        let mut squares = 0.0;
+        for _ in 0..n {
+            let x = noise.bounded_normal(1.5);
+            assert!(x.abs() <= 1.5);
+            squares += x * x;
+        }
+        let variance = squares / f64::from(n);
+        assert!((variance - 0.551_524).abs() < 0.0153, "{variance}");
+        // A bound that cuts nothing leaves the numbers what they are.
+        let (mut cut, mut whole) = (Noise::new(7, 4), Noise::new(7, 4));
+        assert_eq!(cut.bounded_normal(9.0), whole.normal());
+        assert!(normal_quantile(1.0 / (1_u64 << 53) as f64) > -Noise::FARTHEST_NORMAL);
     }
 
     /// Of n draws the k-th moment lies within five of its standard deviations of the truth:

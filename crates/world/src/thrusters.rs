@@ -95,17 +95,12 @@ impl Thrusters {
             cut.push(Saturation::TankEmpty);
         }
     }
-    /// The instants between `from` and `to` (s into the period) at which a force bends, in order.
-    pub(crate) fn bends(&self, from: f64, to: f64) -> Vec<f64> {
+    /// The instants between `from` and `to` (s into the period) at which a force bends, in no order.
+    pub(crate) fn bends(&self, from: f64, to: f64) -> impl Iterator<Item = f64> {
         let near = 1e-12 * to;
         let each = self.list.iter().zip(&self.pulses);
-        let mut bends: Vec<f64> = each
-            .flat_map(|(thruster, pulse)| pulse.bends(thruster))
-            .filter(|t| *t > from + near && *t < to - near)
-            .collect();
-        bends.sort_by(f64::total_cmp);
-        bends.dedup_by(|a, b| *a - *b < near);
-        bends
+        let all = each.flat_map(|(thruster, pulse)| pulse.bends(thruster));
+        all.filter(move |t| *t > from + near && *t < to - near)
     }
     /// Force of each thruster (N) at `t`, as in the stretch without a bend that holds `within` (s).
     fn forces(&self, t: f64, within: f64) -> impl Iterator<Item = (&Thruster<f64>, f64)> {
