@@ -12,6 +12,7 @@ mod energy;
 mod forward_dynamics;
 mod generalized_jacobian;
 mod inverse_dynamics;
+mod inverse_dynamics_derivatives;
 mod jacobian;
 mod kinematics;
 mod mass_matrix;
@@ -29,6 +30,9 @@ pub use energy::kinetic_energy;
 pub use forward_dynamics::{BaseMode, Dynamics, JointDrive, driven_dynamics, forward_dynamics};
 pub use generalized_jacobian::{generalized_jacobian, velocity_from_momentum};
 pub use inverse_dynamics::{InverseDynamics, bias_force, inverse_dynamics};
+pub use inverse_dynamics_derivatives::{
+    BaseColumns, InverseDynamicsDerivatives, JointColumns, inverse_dynamics_derivatives,
+};
 pub use jacobian::{Jacobian, bias_acceleration, jacobian};
 pub use kinematics::{Kinematics, kinematics};
 pub use mass_matrix::{MassMatrix, mass_matrix};

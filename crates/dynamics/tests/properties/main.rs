@@ -14,6 +14,7 @@ mod barycentric_laws;
 mod equivalence_laws;
 mod forward_dynamics_laws;
 mod generalized_jacobian_laws;
+mod inverse_dynamics_derivatives_laws;
 mod inverse_dynamics_laws;
 mod kinematics_laws;
 mod mass_matrix_laws;

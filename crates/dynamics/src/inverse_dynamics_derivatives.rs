@@ -1,0 +1,359 @@
+//! Exact derivatives of inverse dynamics: how the forces of a motion change with the motion.
+//!
+//! Everything is about the base's origin Bo in base axes, so nothing is turned or shifted between
+//! bodies, and what a joint carries is a plain sum.
+
+use crate::{
+    BodyId, Generalized, GeneralizedForce, GeneralizedVelocity, Joint, JointKind, Kinematics,
+    MassMatrix, PerBody,
+};
+use core::ops::AddAssign;
+use wrasse_spatial::{
+    Mat3, Pose, Real, SpatialForce, SpatialInertia, SpatialVelocity, Sym3, Vec3, vec3,
+};
+
+/// Derivative of a generalized vector with respect to one number of each joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointColumns<B, T, const J: usize> {
+    /// The base's six, one column for each joint.
+    pub base: [B; J],
+    /// The joints': `joints[row][column]`; zero from the number of joints on.
+    pub joints: [[T; J]; J],
+}
+
+impl<B: Copy, T: Real, const J: usize> JointColumns<B, T, J> {
+    /// Every element of the base's part the same, nothing in the joints' part.
+    #[inline(always)]
+    pub(crate) fn filled(base: B) -> Self {
+        Self { base: [base; J], joints: [[T::zero(); J]; J] }
+    }
+    /// Column of one joint.
+    pub fn column(&self, j: usize) -> Generalized<B, T, J> {
+        Generalized { base: self.base[j], joints: self.joints.map(|row| row[j]) }
+    }
+}
+
+/// Derivative of a generalized vector with respect to six numbers of the base.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BaseColumns<B, T, const J: usize> {
+    /// The base's six, one column for each of six, angular first.
+    pub base: [B; 6],
+    /// The joints': `joints[row][column]`; zero from the number of joints on.
+    pub joints: [[T; 6]; J],
+}
+
+impl<B: Copy, T: Real, const J: usize> BaseColumns<B, T, J> {
+    /// Column of one of the base's six.
+    pub fn column(&self, c: usize) -> Generalized<B, T, J> {
+        Generalized { base: self.base[c], joints: self.joints.map(|row| row[c]) }
+    }
+}
+
+/// Forces of a motion, and their derivatives.
+///
+/// The derivative with respect to the base's pose is zero: nothing depends on where in free space
+/// the robot is, as long as the wrenches from outside are carried along with their bodies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InverseDynamicsDerivatives<T, const J: usize> {
+    /// Wrench on the base at Bo (base axes) and joint forces.
+    pub force: GeneralizedForce<T, J>,
+    /// By joint positions.
+    pub by_position: JointColumns<SpatialForce<T>, T, J>,
+    /// By joint rates.
+    pub by_rate: JointColumns<SpatialForce<T>, T, J>,
+    /// By the base's twist `V_NB_B`.
+    pub by_base_velocity: BaseColumns<SpatialForce<T>, T, J>,
+    /// By the generalized acceleration.
+    pub by_acceleration: MassMatrix<T, J>,
+}
+
+/// What one body does, and its joint; about Bo, base axes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Motion<T> {
+    X_0B: Pose<T>,
+    V: SpatialVelocity<T>,
+    A: SpatialVelocity<T>,
+    /// Twist of a unit rate of the joint.
+    pub(crate) S: SpatialVelocity<T>,
+    /// Its first and its second rate of change, carried along with the parent.
+    Sdot: SpatialVelocity<T>,
+    Sddot: SpatialVelocity<T>,
+}
+
+impl<T: Real> Motion<T> {
+    /// Of the base, which has no joint.
+    #[inline(always)]
+    fn of_base(V: SpatialVelocity<T>, A: SpatialVelocity<T>) -> Self {
+        let none = SpatialVelocity::zero();
+        Self { X_0B: Pose::identity(), V, A, S: none, Sdot: none, Sddot: none }
+    }
+    /// Of a body from that of its parent, at joint rate `v` and joint acceleration `a`.
+    #[inline(always)]
+    fn of_child(&self, joint: &Joint<T>, X_PB: &Pose<T>, v: T, a: T) -> Self {
+        let X_0B = self.X_0B * *X_PB;
+        let axis = X_0B.rotation * joint.axis_B;
+        let S = match joint.kind {
+            JointKind::Revolute => SpatialVelocity::new(axis, X_0B.translation.cross(axis)),
+            JointKind::Prismatic => SpatialVelocity::new(Vec3::zero(), axis),
+        };
+        let Sdot = self.V.cross(&S);
+        Self {
+            X_0B,
+            V: self.V + S * v,
+            A: self.A + S * a + Sdot * v,
+            S,
+            Sdot,
+            Sddot: self.A.cross(&S) + self.V.cross(&Sdot),
+        }
+    }
+}
+
+/// Matter in motion: sums over its points r that move with ṙ, about Bo, in base axes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Matter<T> {
+    mass: T,
+    /// `Σ m r`.
+    first: Vec3<T>,
+    /// `Σ m r rᵀ`.
+    second: Sym3<T>,
+    /// `Σ m ṙ`: linear momentum.
+    flow: Vec3<T>,
+    /// `Σ m ṙ rᵀ`.
+    flow_moment: Mat3<T>,
+    /// `[Σ m r × r̈; Σ m r̈]`, less what pushes from outside.
+    force: SpatialForce<T>,
+}
+
+impl<T: Real> AddAssign for Matter<T> {
+    #[inline(always)]
+    fn add_assign(&mut self, b: Self) {
+        self.mass += b.mass;
+        self.first += b.first;
+        self.second += b.second;
+        self.flow += b.flow;
+        self.flow_moment = self.flow_moment + b.flow_moment;
+        self.force += b.force;
+    }
+}
+
+impl<T: Real> Matter<T> {
+    /// Of one body.
+    #[inline(always)]
+    fn of_body(M_B_B: &SpatialInertia<T>, motion: &Motion<T>, external: &SpatialForce<T>) -> Self {
+        let (R, p) = (motion.X_0B.rotation, motion.X_0B.translation);
+        let turned = R * M_B_B.first_moment;
+        let first = turned + p * M_B_B.mass;
+        let second = R.congruence(second_moment(&M_B_B.rotational)) + mixed(turned, p, first);
+        let (w, u) = (motion.V.angular, motion.V.linear);
+        let mut matter = Self {
+            mass: M_B_B.mass,
+            first,
+            second,
+            flow: u * M_B_B.mass + w.cross(first),
+            flow_moment: cross_rows(w, &second.to_mat3()) + u.outer(first),
+            force: SpatialForce::zero(),
+        };
+        // r̈ = a + α × r + w × ṙ.
+        let (alpha, a) = (motion.A.angular, motion.A.linear);
+        let rate = cross_rows(alpha, &second.to_mat3())
+            + a.outer(first)
+            + cross_rows(w, &matter.flow_moment);
+        let force = a * matter.mass + alpha.cross(first) + w.cross(matter.flow);
+        let outside = motion.X_0B.force_to_parent(external);
+        matter.force = SpatialForce::new(moment(&rate), force) - outside;
+        matter
+    }
+    /// `M V`: momentum of this matter at the twist V, moving as one rigid body.
+    #[inline(always)]
+    pub(crate) fn times(&self, V: &SpatialVelocity<T>) -> SpatialForce<T> {
+        let (w, v, h) = (V.angular, V.linear, self.first);
+        let S = &self.second;
+        let rotational = w * (S.xx + S.yy + S.zz) - *S * w;
+        SpatialForce::new(rotational + h.cross(v), v * self.mass - h.cross(w))
+    }
+    /// `[2 Σ m r × (w × ṙ); 2 Σ m w × ṙ]`: force that keeps the matter's motion while its axes
+    /// turn with w.
+    #[inline(always)]
+    fn coriolis(&self, w: Vec3<T>) -> SpatialForce<T> {
+        let [x, y, z] = self.flow_moment.rows;
+        let torque = w * (x.x + y.y + z.z) - self.flow_moment * w;
+        let force = w.cross(self.flow);
+        SpatialForce::new(torque + torque, force + force)
+    }
+    /// The transpose: its product with w is `V · coriolis(w)`.
+    #[inline(always)]
+    fn coriolis_transposed(&self, V: &SpatialVelocity<T>) -> Vec3<T> {
+        let [x, y, z] = self.flow_moment.rows;
+        let w = V.angular * (x.x + y.y + z.z) - self.flow_moment.transpose_mul(V.angular)
+            + self.flow.cross(V.linear);
+        w + w
+    }
+    /// As a rigid body's inertia.
+    #[inline(always)]
+    fn inertia(&self) -> SpatialInertia<T> {
+        SpatialInertia {
+            mass: self.mass,
+            first_moment: self.first,
+            rotational: rotational(&self.second),
+        }
+    }
+}
+
+/// `Σ m r rᵀ` from `Σ m (|r|² 1 - r rᵀ)`.
+#[inline(always)]
+fn second_moment<T: Real>(I: &Sym3<T>) -> Sym3<T> {
+    let half = (I.xx + I.yy + I.zz) * T::from_f64(0.5);
+    let (xx, yy, zz) = (half - I.xx, half - I.yy, half - I.zz);
+    Sym3 { xx, yy, zz, xy: -I.xy, xz: -I.xz, yz: -I.yz }
+}
+
+/// `Σ m (|r|² 1 - r rᵀ)` from `Σ m r rᵀ`.
+#[inline(always)]
+fn rotational<T: Real>(S: &Sym3<T>) -> Sym3<T> {
+    let (xx, yy, zz) = (S.yy + S.zz, S.xx + S.zz, S.xx + S.yy);
+    Sym3 { xx, yy, zz, xy: -S.xy, xz: -S.xz, yz: -S.yz }
+}
+
+/// `h pᵀ + p gᵀ`, symmetric because g differs from h by a multiple of p.
+#[inline(always)]
+fn mixed<T: Real>(h: Vec3<T>, p: Vec3<T>, g: Vec3<T>) -> Sym3<T> {
+    Sym3 {
+        xx: h.x * p.x + p.x * g.x,
+        xy: h.x * p.y + p.x * g.y,
+        xz: h.x * p.z + p.x * g.z,
+        yy: h.y * p.y + p.y * g.y,
+        yz: h.y * p.z + p.y * g.z,
+        zz: h.z * p.z + p.z * g.z,
+    }
+}
+
+/// `[w]× M`.
+#[inline(always)]
+fn cross_rows<T: Real>(w: Vec3<T>, M: &Mat3<T>) -> Mat3<T> {
+    let [x, y, z] = M.rows;
+    let cross = [z * w.y - y * w.z, x * w.z - z * w.x, y * w.x - x * w.y];
+    Mat3 { rows: cross }
+}
+
+/// `Σ r × f` from `Σ f rᵀ`.
+#[inline(always)]
+fn moment<T: Real>(M: &Mat3<T>) -> Vec3<T> {
+    let [x, y, z] = M.rows;
+    vec3(z.y - y.z, x.z - z.x, y.x - x.y)
+}
+
+/// Forces of a motion and their derivatives by positions, velocities and accelerations.
+///
+/// # Arguments
+/// | name | meaning | unit |
+/// |---|---|---|
+/// | `nudot` | `[ẇ_NB_B; v̇_NB_B; q̈]`, time derivatives of the components | rad/s², m/s² |
+/// | `external` | wrench on each body at its origin, in its axes | N·m, N |
+///
+/// # Source
+/// J. Carpentier, N. Mansard, *Analytical derivatives of rigid body dynamics algorithms*, RSS 2018;
+/// S. Singh, R. Russell, P. Wensing, *Efficient analytical derivatives of rigid-body dynamics using
+/// spatial vector algebra*, IEEE Robotics and Automation Letters 7(2), 2022.
+#[doc(alias = "rnea derivatives")]
+#[inline(always)]
+pub fn inverse_dynamics_derivatives<T: Real, const J: usize>(
+    k: &Kinematics<'_, T, J>,
+    nudot: &GeneralizedVelocity<T, J>,
+    external: &PerBody<SpatialForce<T>, J>,
+) -> InverseDynamicsDerivatives<T, J> {
+    let base = Motion::of_base(k.V_NB_B(BodyId::Base), nudot.base);
+    let mut motions: PerBody<_, J> = PerBody::filled(base);
+    let matter = Matter::of_body(k.robot.inertia(BodyId::Base), &base, &external.base);
+    let mut carried: PerBody<_, J> = PerBody::filled(matter);
+    for j in k.robot.joints() {
+        // 1. Base to tips: motion and matter of each body.
+        let joint = k.robot.joint(j);
+        let parent = &motions[joint.parent];
+        let motion = parent.of_child(joint, &k.X_PB[j], k.state.v[j], nudot.joints[j]);
+        motions.links[j] = motion;
+        let M_B_B = k.robot.inertia(BodyId::Link(j));
+        carried.links[j] = Matter::of_body(M_B_B, &motion, &external.links[j]);
+    }
+    let mut found = InverseDynamicsDerivatives::nothing(k.robot.joint_count());
+    for j in k.robot.joints().rev() {
+        // 2. Tips to base: what moves with joint j gives its column, and what feels it.
+        let matter = carried.links[j];
+        found.joint(k, j, &motions, &matter);
+        carried[k.robot.joint(j).parent] += matter;
+    }
+    found.base(&base.V, &carried.base);
+    found
+}
+
+impl<T: Real, const J: usize> InverseDynamicsDerivatives<T, J> {
+    #[inline(always)]
+    fn nothing(count: usize) -> Self {
+        let no_force = SpatialForce::zero();
+        let columns = JointColumns::filled(no_force);
+        Self {
+            force: Generalized::default(),
+            by_position: columns,
+            by_rate: columns,
+            by_base_velocity: BaseColumns { base: [no_force; 6], joints: [[T::zero(); 6]; J] },
+            by_acceleration: MassMatrix {
+                count,
+                M_bb: SpatialInertia::zero(),
+                M_bj: [no_force; J],
+                M_jj: [[T::zero(); J]; J],
+            },
+        }
+    }
+    /// All elements between joint j and the base and joints below it.
+    #[inline(always)]
+    fn joint(
+        &mut self,
+        k: &Kinematics<'_, T, J>,
+        j: usize,
+        motions: &PerBody<Motion<T>, J>,
+        matter: &Matter<T>,
+    ) {
+        let on = &motions.links[j];
+        self.force.joints[j] = on.S.power(&matter.force);
+        // Moved by joint j: what it carries, as one body.
+        let inertial = matter.times(&on.S);
+        let position = matter.times(&on.Sddot)
+            + matter.coriolis(on.Sdot.angular)
+            + on.S.cross_force(&matter.force);
+        let rate = matter.times(&(on.Sdot + on.Sdot)) + matter.coriolis(on.S.angular);
+        self.by_acceleration.M_bj[j] = inertial;
+        self.by_position.base[j] = position;
+        self.by_rate.base[j] = rate;
+        // Felt by joint j: what moves all of it.
+        let felt = matter.coriolis_transposed(&on.S);
+        let turning = SpatialForce::new(felt, Vec3::zero());
+        let by_base = turning - motions.base.V.cross_force(&inertial);
+        self.by_base_velocity.joints[j] = by_base.to_array();
+        let mut at = BodyId::Link(j);
+        while let BodyId::Link(i) = at {
+            let below = &motions.links[i];
+            let M_ij = below.S.power(&inertial);
+            self.by_acceleration.M_jj[i][j] = M_ij;
+            self.by_acceleration.M_jj[j][i] = M_ij;
+            self.by_position.joints[j][i] =
+                below.Sddot.power(&inertial) + below.Sdot.angular.dot(felt);
+            self.by_rate.joints[j][i] =
+                (below.Sdot + below.Sdot).power(&inertial) + below.S.angular.dot(felt);
+            self.by_position.joints[i][j] = below.S.power(&position);
+            self.by_rate.joints[i][j] = below.S.power(&rate);
+            at = k.robot.joint(i).parent;
+        }
+    }
+    /// The base's own rows and columns, from the whole robot's matter.
+    #[inline(always)]
+    fn base(&mut self, V: &SpatialVelocity<T>, matter: &Matter<T>) {
+        self.force.base = matter.force;
+        self.by_acceleration.M_bb = matter.inertia();
+        for c in 0..6 {
+            let mut unit = [T::zero(); 6];
+            unit[c] = T::one();
+            let unit = SpatialVelocity::from_array(unit);
+            self.by_base_velocity.base[c] =
+                matter.times(&V.cross(&unit)) + matter.coriolis(unit.angular);
+        }
+    }
+}
