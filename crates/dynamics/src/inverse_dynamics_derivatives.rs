@@ -67,49 +67,39 @@ pub struct InverseDynamicsDerivatives<T, const J: usize> {
     pub by_acceleration: MassMatrix<T, J>,
 }
 
-/// What one body does, and its joint; about Bo, base axes.
-#[derive(Debug, Clone, Copy)]
+/// How one body moves, and its joint; about Bo, base axes.
+#[derive(Clone, Copy)]
 pub(crate) struct Motion<T> {
     X_0B: Pose<T>,
     V: SpatialVelocity<T>,
-    A: SpatialVelocity<T>,
     /// Twist of a unit rate of the joint.
     pub(crate) S: SpatialVelocity<T>,
-    /// Its first and its second rate of change, carried along with the parent.
+    /// Its rate of change, carried along with the parent.
     Sdot: SpatialVelocity<T>,
-    Sddot: SpatialVelocity<T>,
 }
 
 impl<T: Real> Motion<T> {
     /// Of the base, which has no joint.
     #[inline(always)]
-    fn of_base(V: SpatialVelocity<T>, A: SpatialVelocity<T>) -> Self {
+    fn of_base(V: SpatialVelocity<T>) -> Self {
         let none = SpatialVelocity::zero();
-        Self { X_0B: Pose::identity(), V, A, S: none, Sdot: none, Sddot: none }
+        Self { X_0B: Pose::identity(), V, S: none, Sdot: none }
     }
-    /// Of a body from that of its parent, at joint rate `v` and joint acceleration `a`.
+    /// Of a body from that of its parent, at joint rate `v`.
     #[inline(always)]
-    fn of_child(&self, joint: &Joint<T>, X_PB: &Pose<T>, v: T, a: T) -> Self {
+    fn of_child(&self, joint: &Joint<T>, X_PB: &Pose<T>, v: T) -> Self {
         let X_0B = self.X_0B * *X_PB;
         let axis = X_0B.rotation * joint.axis_B;
         let S = match joint.kind {
             JointKind::Revolute => SpatialVelocity::new(axis, X_0B.translation.cross(axis)),
             JointKind::Prismatic => SpatialVelocity::new(Vec3::zero(), axis),
         };
-        let Sdot = self.V.cross(&S);
-        Self {
-            X_0B,
-            V: self.V + S * v,
-            A: self.A + S * a + Sdot * v,
-            S,
-            Sdot,
-            Sddot: self.A.cross(&S) + self.V.cross(&Sdot),
-        }
+        Self { X_0B, V: self.V + S * v, S, Sdot: self.V.cross(&S) }
     }
 }
 
 /// Matter in motion: sums over its points r that move with ṙ, about Bo, in base axes.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(crate) struct Matter<T> {
     mass: T,
     /// `Σ m r`.
@@ -120,8 +110,6 @@ pub(crate) struct Matter<T> {
     flow: Vec3<T>,
     /// `Σ m ṙ rᵀ`.
     flow_moment: Mat3<T>,
-    /// `[Σ m r × r̈; Σ m r̈]`, less what pushes from outside.
-    force: SpatialForce<T>,
 }
 
 impl<T: Real> AddAssign for Matter<T> {
@@ -132,36 +120,36 @@ impl<T: Real> AddAssign for Matter<T> {
         self.second += b.second;
         self.flow += b.flow;
         self.flow_moment = self.flow_moment + b.flow_moment;
-        self.force += b.force;
     }
 }
 
 impl<T: Real> Matter<T> {
     /// Of one body.
     #[inline(always)]
-    fn of_body(M_B_B: &SpatialInertia<T>, motion: &Motion<T>, external: &SpatialForce<T>) -> Self {
+    fn of_body(M_B_B: &SpatialInertia<T>, motion: &Motion<T>) -> Self {
         let (R, p) = (motion.X_0B.rotation, motion.X_0B.translation);
         let turned = R * M_B_B.first_moment;
         let first = turned + p * M_B_B.mass;
         let second = R.congruence(second_moment(&M_B_B.rotational)) + mixed(turned, p, first);
         let (w, u) = (motion.V.angular, motion.V.linear);
-        let mut matter = Self {
+        Self {
             mass: M_B_B.mass,
             first,
             second,
             flow: u * M_B_B.mass + w.cross(first),
             flow_moment: cross_rows(w, &second.to_mat3()) + u.outer(first),
-            force: SpatialForce::zero(),
-        };
+        }
+    }
+    /// `[Σ m r × r̈; Σ m r̈]` for one body at this twist and spatial acceleration.
+    #[inline(always)]
+    fn force(&self, V: &SpatialVelocity<T>, A: &SpatialVelocity<T>) -> SpatialForce<T> {
         // r̈ = a + α × r + w × ṙ.
-        let (alpha, a) = (motion.A.angular, motion.A.linear);
-        let rate = cross_rows(alpha, &second.to_mat3())
-            + a.outer(first)
-            + cross_rows(w, &matter.flow_moment);
-        let force = a * matter.mass + alpha.cross(first) + w.cross(matter.flow);
-        let outside = motion.X_0B.force_to_parent(external);
-        matter.force = SpatialForce::new(moment(&rate), force) - outside;
-        matter
+        let (alpha, a, w) = (A.angular, A.linear, V.angular);
+        let rate = cross_rows(alpha, &self.second.to_mat3())
+            + a.outer(self.first)
+            + cross_rows(w, &self.flow_moment);
+        let force = a * self.mass + alpha.cross(self.first) + w.cross(self.flow);
+        SpatialForce::new(moment(&rate), force)
     }
     /// `M V`: momentum of this matter at the twist V, moving as one rigid body.
     #[inline(always)]
@@ -242,6 +230,97 @@ fn moment<T: Real>(M: &Mat3<T>) -> Vec3<T> {
     vec3(z.y - y.z, x.z - z.x, y.x - x.y)
 }
 
+/// All bodies, their motion and their matter.
+pub(crate) struct Bodies<T, const J: usize> {
+    motions: PerBody<Motion<T>, J>,
+    /// Each body's own.
+    matter: PerBody<Matter<T>, J>,
+    /// With all that the body carries.
+    carried: PerBody<Matter<T>, J>,
+}
+
+/// What an acceleration takes.
+pub(crate) struct Forces<T, const J: usize> {
+    A: PerBody<SpatialVelocity<T>, J>,
+    /// Force on each body with all that it carries, less what pushes from outside.
+    F: PerBody<SpatialForce<T>, J>,
+}
+
+impl<T: Real, const J: usize> Bodies<T, J> {
+    #[inline(always)]
+    pub(crate) fn new(k: &Kinematics<'_, T, J>) -> Self {
+        let base = Motion::of_base(k.V_NB_B(BodyId::Base));
+        let mut motions: PerBody<_, J> = PerBody::filled(base);
+        let matter = Matter::of_body(k.robot.inertia(BodyId::Base), &base);
+        let mut matter: PerBody<_, J> = PerBody::filled(matter);
+        for j in k.robot.joints() {
+            let joint = k.robot.joint(j);
+            let motion = motions[joint.parent].of_child(joint, &k.X_PB[j], k.state.v[j]);
+            motions.links[j] = motion;
+            matter.links[j] = Matter::of_body(k.robot.inertia(BodyId::Link(j)), &motion);
+        }
+        let mut carried = matter;
+        for j in k.robot.joints().rev() {
+            let behind = carried.links[j];
+            carried[k.robot.joint(j).parent] += behind;
+        }
+        Self { motions, matter, carried }
+    }
+    /// Forces that the accelerations take.
+    #[inline(always)]
+    pub(crate) fn forces(
+        &self,
+        k: &Kinematics<'_, T, J>,
+        nudot: &GeneralizedVelocity<T, J>,
+        external: &PerBody<SpatialForce<T>, J>,
+    ) -> Forces<T, J> {
+        let force = |body: BodyId, A: &SpatialVelocity<T>| {
+            let motion = &self.motions[body];
+            self.matter[body].force(&motion.V, A) - motion.X_0B.force_to_parent(&external[body])
+        };
+        let mut A: PerBody<_, J> = PerBody::filled(nudot.base);
+        let mut F: PerBody<_, J> = PerBody::filled(force(BodyId::Base, &nudot.base));
+        for j in k.robot.joints() {
+            let own = &self.motions.links[j];
+            A.links[j] =
+                A[k.robot.joint(j).parent] + own.S * nudot.joints[j] + own.Sdot * k.state.v[j];
+            F.links[j] = force(BodyId::Link(j), &A.links[j]);
+        }
+        for j in k.robot.joints().rev() {
+            let behind = F.links[j];
+            F[k.robot.joint(j).parent] += behind;
+        }
+        Forces { A, F }
+    }
+    /// What the base and the motors feel of the forces.
+    #[inline(always)]
+    pub(crate) fn project(
+        &self,
+        k: &Kinematics<'_, T, J>,
+        forces: &Forces<T, J>,
+    ) -> GeneralizedForce<T, J> {
+        let mut felt = Generalized { base: forces.F.base, joints: [T::zero(); J] };
+        for j in k.robot.joints() {
+            felt.joints[j] = self.motions.links[j].S.power(&forces.F.links[j]);
+        }
+        felt
+    }
+    /// The mass matrix, into a place that is zero.
+    #[inline(always)]
+    pub(crate) fn mass_matrix_into(&self, k: &Kinematics<'_, T, J>, M: &mut MassMatrix<T, J>) {
+        M.M_bb = self.carried.base.inertia();
+        for j in k.robot.joints() {
+            let inertial = self.carried.links[j].times(&self.motions.links[j].S);
+            M.M_bj[j] = inertial;
+            for i in k.robot.path_to_base(BodyId::Link(j)) {
+                let M_ij = self.motions.links[i].S.power(&inertial);
+                M.M_jj[i][j] = M_ij;
+                M.M_jj[j][i] = M_ij;
+            }
+        }
+    }
+}
+
 /// Forces of a motion and their derivatives by positions, velocities and accelerations.
 ///
 /// # Arguments
@@ -261,33 +340,19 @@ pub fn inverse_dynamics_derivatives<T: Real, const J: usize>(
     nudot: &GeneralizedVelocity<T, J>,
     external: &PerBody<SpatialForce<T>, J>,
 ) -> InverseDynamicsDerivatives<T, J> {
-    let base = Motion::of_base(k.V_NB_B(BodyId::Base), nudot.base);
-    let mut motions: PerBody<_, J> = PerBody::filled(base);
-    let matter = Matter::of_body(k.robot.inertia(BodyId::Base), &base, &external.base);
-    let mut carried: PerBody<_, J> = PerBody::filled(matter);
-    for j in k.robot.joints() {
-        // 1. Base to tips: motion and matter of each body.
-        let joint = k.robot.joint(j);
-        let parent = &motions[joint.parent];
-        let motion = parent.of_child(joint, &k.X_PB[j], k.state.v[j], nudot.joints[j]);
-        motions.links[j] = motion;
-        let M_B_B = k.robot.inertia(BodyId::Link(j));
-        carried.links[j] = Matter::of_body(M_B_B, &motion, &external.links[j]);
-    }
     let mut found = InverseDynamicsDerivatives::nothing(k.robot.joint_count());
-    for j in k.robot.joints().rev() {
-        // 2. Tips to base: what moves with joint j gives its column, and what feels it.
-        let matter = carried.links[j];
-        found.joint(k, j, &motions, &matter);
-        carried[k.robot.joint(j).parent] += matter;
-    }
-    found.base(&base.V, &carried.base);
+    let bodies = Bodies::new(k);
+    bodies.mass_matrix_into(k, &mut found.by_acceleration);
+    let forces = bodies.forces(k, nudot, external);
+    found.force = bodies.project(k, &forces);
+    found.differentiate(k, &bodies, &forces);
     found
 }
 
 impl<T: Real, const J: usize> InverseDynamicsDerivatives<T, J> {
+    /// All zero.
     #[inline(always)]
-    fn nothing(count: usize) -> Self {
+    pub(crate) fn nothing(count: usize) -> Self {
         let no_force = SpatialForce::zero();
         let columns = JointColumns::filled(no_force);
         Self {
@@ -303,57 +368,61 @@ impl<T: Real, const J: usize> InverseDynamicsDerivatives<T, J> {
             },
         }
     }
-    /// All elements between joint j and the base and joints below it.
+    /// The derivatives by positions and velocities; that by acceleration is there.
     #[inline(always)]
-    fn joint(
+    pub(crate) fn differentiate(
         &mut self,
         k: &Kinematics<'_, T, J>,
-        j: usize,
-        motions: &PerBody<Motion<T>, J>,
-        matter: &Matter<T>,
+        bodies: &Bodies<T, J>,
+        forces: &Forces<T, J>,
     ) {
-        let on = &motions.links[j];
-        self.force.joints[j] = on.S.power(&matter.force);
-        // Moved by joint j: what it carries, as one body.
-        let inertial = matter.times(&on.S);
-        let position = matter.times(&on.Sddot)
-            + matter.coriolis(on.Sdot.angular)
-            + on.S.cross_force(&matter.force);
-        let rate = matter.times(&(on.Sdot + on.Sdot)) + matter.coriolis(on.S.angular);
-        self.by_acceleration.M_bj[j] = inertial;
-        self.by_position.base[j] = position;
-        self.by_rate.base[j] = rate;
-        // Felt by joint j: what moves all of it.
-        let felt = matter.coriolis_transposed(&on.S);
-        let turning = SpatialForce::new(felt, Vec3::zero());
-        let by_base = turning - motions.base.V.cross_force(&inertial);
-        self.by_base_velocity.joints[j] = by_base.to_array();
-        let mut at = BodyId::Link(j);
-        while let BodyId::Link(i) = at {
-            let below = &motions.links[i];
-            let M_ij = below.S.power(&inertial);
-            self.by_acceleration.M_jj[i][j] = M_ij;
-            self.by_acceleration.M_jj[j][i] = M_ij;
-            self.by_position.joints[j][i] =
-                below.Sddot.power(&inertial) + below.Sdot.angular.dot(felt);
-            self.by_rate.joints[j][i] =
-                (below.Sdot + below.Sdot).power(&inertial) + below.S.angular.dot(felt);
-            self.by_position.joints[i][j] = below.S.power(&position);
-            self.by_rate.joints[i][j] = below.S.power(&rate);
-            at = k.robot.joint(i).parent;
+        let mut Sddot = [SpatialVelocity::zero(); J];
+        for j in k.robot.joints() {
+            let (parent, own) = (k.robot.joint(j).parent, &bodies.motions.links[j]);
+            let V_P = &bodies.motions[parent].V;
+            Sddot[j] = forces.A[parent].cross(&own.S) + V_P.cross(&own.Sdot);
+            self.differentiate_joint(k, bodies, j, &Sddot, &forces.F.links[j]);
         }
-    }
-    /// The base's own rows and columns, from the whole robot's matter.
-    #[inline(always)]
-    fn base(&mut self, V: &SpatialVelocity<T>, matter: &Matter<T>) {
-        self.force.base = matter.force;
-        self.by_acceleration.M_bb = matter.inertia();
+        let (V, matter) = (&bodies.motions.base.V, &bodies.carried.base);
         for c in 0..6 {
             let mut unit = [T::zero(); 6];
             unit[c] = T::one();
             let unit = SpatialVelocity::from_array(unit);
             self.by_base_velocity.base[c] =
                 matter.times(&V.cross(&unit)) + matter.coriolis(unit.angular);
+        }
+    }
+    /// All elements between joint j and the base and joints below it.
+    #[inline(always)]
+    fn differentiate_joint(
+        &mut self,
+        k: &Kinematics<'_, T, J>,
+        bodies: &Bodies<T, J>,
+        j: usize,
+        Sddot: &[SpatialVelocity<T>; J],
+        force: &SpatialForce<T>,
+    ) {
+        let (own, matter) = (&bodies.motions.links[j], &bodies.carried.links[j]);
+        // Moved by joint j: what it carries, as one body.
+        let inertial = self.by_acceleration.M_bj[j];
+        let position =
+            matter.times(&Sddot[j]) + matter.coriolis(own.Sdot.angular) + own.S.cross_force(force);
+        let rate = matter.times(&(own.Sdot + own.Sdot)) + matter.coriolis(own.S.angular);
+        self.by_position.base[j] = position;
+        self.by_rate.base[j] = rate;
+        // Felt by joint j: what moves all of it.
+        let felt = matter.coriolis_transposed(&own.S);
+        let turning = SpatialForce::new(felt, Vec3::zero());
+        let by_base = turning - bodies.motions.base.V.cross_force(&inertial);
+        self.by_base_velocity.joints[j] = by_base.to_array();
+        for i in k.robot.path_to_base(BodyId::Link(j)) {
+            let below = &bodies.motions.links[i];
+            self.by_position.joints[j][i] =
+                Sddot[i].power(&inertial) + below.Sdot.angular.dot(felt);
+            self.by_rate.joints[j][i] =
+                (below.Sdot + below.Sdot).power(&inertial) + below.S.angular.dot(felt);
+            self.by_position.joints[i][j] = below.S.power(&position);
+            self.by_rate.joints[i][j] = below.S.power(&rate);
         }
     }
 }

@@ -10,9 +10,11 @@ mod barycentric_vectors;
 mod cholesky;
 mod energy;
 mod forward_dynamics;
+mod forward_dynamics_derivatives;
 mod generalized_jacobian;
 mod inverse_dynamics;
 mod inverse_dynamics_derivatives;
+mod inverse_mass_matrix;
 mod jacobian;
 mod kinematics;
 mod mass_matrix;
@@ -28,11 +30,13 @@ pub use barycentric_vectors::{barycentric_vectors, virtual_manipulator};
 pub use cholesky::Cholesky;
 pub use energy::kinetic_energy;
 pub use forward_dynamics::{BaseMode, Dynamics, JointDrive, driven_dynamics, forward_dynamics};
+pub use forward_dynamics_derivatives::{ForwardDynamicsDerivatives, forward_dynamics_derivatives};
 pub use generalized_jacobian::{generalized_jacobian, velocity_from_momentum};
 pub use inverse_dynamics::{InverseDynamics, bias_force, inverse_dynamics};
 pub use inverse_dynamics_derivatives::{
     BaseColumns, InverseDynamicsDerivatives, JointColumns, inverse_dynamics_derivatives,
 };
+pub use inverse_mass_matrix::{InverseMassMatrix, inverse_mass_matrix};
 pub use jacobian::{Jacobian, bias_acceleration, jacobian};
 pub use kinematics::{Kinematics, kinematics};
 pub use mass_matrix::{MassMatrix, mass_matrix};

@@ -12,6 +12,7 @@ mod measure;
 
 mod barycentric_laws;
 mod equivalence_laws;
+mod forward_dynamics_derivatives_laws;
 mod forward_dynamics_laws;
 mod generalized_jacobian_laws;
 mod inverse_dynamics_derivatives_laws;
