@@ -1,7 +1,8 @@
-//! The project's own chores: `cargo xtask test`, `cargo xtask tidy`, `cargo xtask ci`.
+//! The project's own chores: `cargo xtask test`, `cargo xtask tidy`, `cargo xtask ci` and others.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "chores talk to their caller")]
 
 mod chores;
+mod embedded;
 mod tidy;
 
 use std::env;
@@ -13,6 +14,10 @@ usage: cargo xtask CHORE
   test [ARGS]   all tests: unit, integration and documentation tests of the whole workspace;
                 ARGS go to `cargo test`
   tidy          rules of the repository that no compiler knows
+  embedded [--require]
+                the control period on a flight processor's instruction set, in an emulator:
+                no panic, same bits as the host, instructions, stack; without the tools it is
+                skipped, with --require it fails
   ci            formatting, lints, documentation, then all tests: what a change must pass";
 
 fn main() -> ExitCode {
@@ -24,6 +29,7 @@ fn main() -> ExitCode {
     let outcome = match chore {
         "test" => chores::test(rest),
         "tidy" => tidy::report(),
+        "embedded" => embedded::embedded(rest),
         "ci" => chores::ci(),
         _ => Err(USAGE.to_owned()),
     };

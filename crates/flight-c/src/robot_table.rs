@@ -1,0 +1,107 @@
+//! A robot as a table of plain numbers, as C knows it.
+
+use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, Payload, Robot, RobotError};
+use wrasse_spatial::{Mat3, Pose, Real, Sym3, Vec3, vec3};
+
+/// What a body is made of.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct WrasseBody {
+    /// Mass (kg).
+    pub mass: f64,
+    /// Centre of mass, from the body's origin, body axes (m).
+    pub centre_of_mass: [f64; 3],
+    /// Inertia about the centre of mass, body axes: xx, yy, zz, xy, xz, yz (kg·m²).
+    pub inertia: [f64; 6],
+}
+
+/// A joint and where it sits on its parent.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct WrasseJoint {
+    /// Number of the link that it is mounted on, smaller than its own; -1 for the base.
+    pub parent: i32,
+    /// 0: it turns about its axis (rad). 1: it slides along its axis (m).
+    pub sliding: i32,
+    /// Origin of the link at zero travel, from the parent's origin, parent axes (m).
+    pub position: [f64; 3],
+    /// Turns link axes into parent axes at zero travel, by rows (–).
+    pub rotation: [[f64; 3]; 3],
+    /// Its axis, link axes; made a unit vector (–).
+    pub axis: [f64; 3],
+}
+
+/// A joint and the body that it carries.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct WrasseLink {
+    /// The joint.
+    pub joint: WrasseJoint,
+    /// The body; its origin is that of the joint.
+    pub body: WrasseBody,
+}
+
+/// A frame fixed to a body: a tool.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct WrasseFrame {
+    /// Number of the link that carries it; -1 for the base.
+    pub link: i32,
+    /// Its origin, from the body's origin, body axes (m).
+    pub position: [f64; 3],
+    /// Turns its axes into body axes, by rows (–).
+    pub rotation: [[f64; 3]; 3],
+}
+
+fn vector<T: Real>([x, y, z]: [f64; 3]) -> Vec3<T> {
+    vec3(T::from_f64(x), T::from_f64(y), T::from_f64(z))
+}
+
+fn pose<T: Real>(rotation: [[f64; 3]; 3], position: [f64; 3]) -> Pose<T> {
+    let [x, y, z] = rotation.map(vector);
+    Pose::new(Mat3::from_rows(x, y, z), vector(position))
+}
+
+/// The body of this number; the base for a negative one.
+fn body_of(link: i32) -> BodyId {
+    usize::try_from(link).map_or(BodyId::Base, BodyId::Link)
+}
+
+fn payload<T: Real>(body: &WrasseBody) -> Payload<T> {
+    let centre = vector(body.centre_of_mass);
+    let [xx, yy, zz, xy, xz, yz] = body.inertia.map(T::from_f64);
+    Payload::from_central(T::from_f64(body.mass), centre, Sym3 { xx, xy, xz, yy, yz, zz })
+}
+
+fn joint<T: Real>(joint: &WrasseJoint) -> Joint<T> {
+    let kind = if joint.sliding == 0 { JointKind::Revolute } else { JointKind::Prismatic };
+    let X_PB_zero = pose(joint.rotation, joint.position);
+    Joint::new(body_of(joint.parent), kind, X_PB_zero, vector(joint.axis))
+}
+
+/// A frame over another scalar.
+pub fn frame_from_table<T: Real>(frame: &WrasseFrame) -> Frame<T> {
+    Frame { body: body_of(frame.link), X_BF: pose(frame.rotation, frame.position) }
+}
+
+/// The robot of a base and its links, in their order.
+///
+/// # Errors
+/// If there are more than `J` links, or a parent does not come before its child.
+pub fn robot_from_tables<T: Real, const J: usize>(
+    base: &WrasseBody,
+    links: &[WrasseLink],
+) -> Result<Robot<T, J>, RobotError> {
+    if links.len() > J {
+        return Err(RobotError::TooManyJoints { found: links.len(), capacity: J });
+    }
+    let idle = WrasseLink {
+        joint: WrasseJoint { parent: -1, axis: [0.0, 0.0, 1.0], ..WrasseJoint::default() },
+        ..WrasseLink::default()
+    };
+    let mut table = [(joint(&idle.joint), payload(&idle.body)); J];
+    for (to, link) in table.iter_mut().zip(links) {
+        *to = (joint(&link.joint), payload(&link.body));
+    }
+    Robot::new(payload(base), table.get(..links.len()).unwrap_or(&table))
+}

@@ -1,0 +1,117 @@
+//! The vehicle tables of the C example and of the firmware are those of the catalogue.
+#![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
+
+use std::fmt::Write;
+use std::path::Path;
+use std::{env, fs};
+use wrasse_dynamics::{BodyId, JointKind, State, kinematics, mass_matrix};
+use wrasse_flight_c::{
+    WrasseBody, WrasseFrame, WrasseJoint, WrasseLink, frame_from_table, robot_from_tables,
+};
+use wrasse_spatial::{SpatialInertia, Vec3};
+use wrasse_vehicle::{JOINTS, Vehicle, catalogue};
+
+fn vehicle(name: &str) -> Vehicle {
+    catalogue().iter().find(|entry| entry.name == name).unwrap().read().unwrap()
+}
+
+fn body(M: &SpatialInertia<f64>) -> WrasseBody {
+    let I = M.central();
+    WrasseBody {
+        mass: M.mass,
+        centre_of_mass: M.centre_of_mass().to_array(),
+        inertia: [I.xx, I.yy, I.zz, I.xy, I.xz, I.yz],
+    }
+}
+
+/// A vehicle's robot as a table.
+fn table(vehicle: &Vehicle) -> (WrasseBody, Vec<WrasseLink>) {
+    let robot = &vehicle.robot;
+    let links = robot.joints().map(|j| {
+        let joint = robot.joint(j);
+        let parent = match joint.parent {
+            BodyId::Base => -1,
+            BodyId::Link(p) => i32::try_from(p).unwrap(),
+        };
+        WrasseLink {
+            joint: WrasseJoint {
+                parent,
+                sliding: i32::from(joint.kind == JointKind::Prismatic),
+                position: joint.X_PB_zero.translation.to_array(),
+                rotation: joint.X_PB_zero.rotation.rows.map(Vec3::to_array),
+                axis: joint.axis_B.to_array(),
+            },
+            body: body(robot.inertia(BodyId::Link(j))),
+        }
+    });
+    (body(robot.inertia(BodyId::Base)), links.collect())
+}
+
+fn tool(vehicle: &Vehicle) -> WrasseFrame {
+    let frame = vehicle.frame(&vehicle.tools[0]).unwrap();
+    WrasseFrame {
+        link: match frame.body {
+            BodyId::Base => -1,
+            BodyId::Link(j) => i32::try_from(j).unwrap(),
+        },
+        position: frame.X_BF.translation.to_array(),
+        rotation: frame.X_BF.rotation.rows.map(Vec3::to_array),
+    }
+}
+
+/// A vehicle as Rust: constants that are printed as the language writes them.
+fn in_rust(vehicle: &Vehicle) -> String {
+    let (base, links) = table(vehicle);
+    let mut text = format!("//! `{}` of the catalogue as a table.\n\n", vehicle.name);
+    text += "use wrasse_flight_c::{WrasseBody, WrasseFrame, WrasseJoint, WrasseLink};\n\n";
+    writeln!(text, "#[rustfmt::skip]\npub(crate) const BASE: WrasseBody = {base:?};\n").unwrap();
+    let frame = tool(vehicle);
+    writeln!(text, "#[rustfmt::skip]\npub(crate) const TOOL: WrasseFrame = {frame:?};\n").unwrap();
+    let count = links.len();
+    writeln!(text, "#[rustfmt::skip]\npub(crate) const LINKS: [WrasseLink; {count}] = [").unwrap();
+    links.iter().for_each(|link| writeln!(text, "    {link:?},").unwrap());
+    text + "];\n"
+}
+
+/// Compare with the file; with `WRASSE_WRITE=1` write it.
+#[track_caller]
+fn check(file: &str, text: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(file);
+    if env::var_os("WRASSE_WRITE").is_some() {
+        fs::write(&path, text).unwrap();
+    }
+    let found = fs::read_to_string(&path).unwrap_or_default();
+    assert!(found == text, "{file} is out of date: WRASSE_WRITE=1 cargo test -p wrasse-flight-c");
+}
+
+#[test]
+fn tables_of_the_firmware_are_those_of_the_catalogue() {
+    for (name, file) in
+        [("atlas-class", "atlas_class.rs"), ("atlas-class-two-arms", "atlas_class_two_arms.rs")]
+    {
+        check(&format!("embedded/golden/src/{file}"), &in_rust(&vehicle(name)));
+    }
+}
+
+/// The table says what the vehicle file says: same mass, same place of the tool, same inertia seen
+/// from the base. Measured 1e-16 of the largest element of each.
+#[test]
+fn a_robot_from_its_table_is_the_robot_of_the_catalogue() {
+    let vehicle = vehicle("atlas-class-two-arms");
+    let (base, links) = table(&vehicle);
+    let robot = robot_from_tables::<f64, JOINTS>(&base, &links).unwrap();
+    let mut state = State::default();
+    for j in robot.joints() {
+        state.q[j] = 0.3 * f64::from(u8::try_from(j).unwrap()) - 1.0;
+    }
+    let frame = frame_from_table(&tool(&vehicle));
+    let (k, expected) = (kinematics(&robot, &state), kinematics(&vehicle.robot, &state));
+    let apart = k.pose(&frame).translation - expected.pose(&frame).translation;
+    let (M, M_expected) =
+        (mass_matrix(&k).M_bb.to_matrix(), mass_matrix(&expected).M_bb.to_matrix());
+    let largest = M.iter().flatten().zip(M_expected.iter().flatten()).map(|(a, b)| (a - b).abs());
+    let largest = largest.fold(0.0, f64::max) / M_expected[0][0];
+    println!("tool {:e} m, inertia {largest:e}", apart.norm());
+    assert_eq!(robot.joint_count(), vehicle.robot.joint_count());
+    assert!(apart.norm() < 1e-14 && largest < 1e-14, "{} m, {largest}", apart.norm());
+}
