@@ -34,14 +34,16 @@ pub(crate) fn reach_margin<const J: usize>(
     k: &Kinematics<'_, f64, J>,
     tool: &Frame<f64>,
 ) -> Option<f64> {
-    let mut points = vec![k.pose(tool).translation];
+    let tip = k.pose(tool).translation;
+    let (mut stretched, mut mount) = (0.0, tip);
     for j in k.robot.path_to_base(tool.body) {
         if k.robot.joint(j).kind == JointKind::Prismatic {
             return None;
         }
-        points.push(k.X_NB(BodyId::Link(j)).translation);
+        let next = k.X_NB(BodyId::Link(j)).translation;
+        stretched += (next - mount).norm();
+        mount = next;
     }
-    let stretched: f64 = points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum();
-    let mount = points.last().filter(|_| points.len() > 1)?;
-    Some(stretched - (points[0] - *mount).norm())
+    let moves = tool.body != BodyId::Base;
+    moves.then(|| stretched - (tip - mount).norm())
 }

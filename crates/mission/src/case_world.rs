@@ -5,7 +5,7 @@ use crate::mission::Case;
 use crate::read_base::Turning;
 use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::Vec3;
-use wrasse_vehicle::JOINTS;
+use wrasse_vehicle::{JOINTS, VehicleRobot};
 use wrasse_world::{BaseAttitude, Drive, Equipment, Stepper, World, WorldSetup};
 
 /// The vehicle of a case with what it holds, and what pushes at it; nothing floats beside it yet.
@@ -56,4 +56,22 @@ fn equipment(case: &Case) -> Equipment {
         gimbal_angle: case.equipment.gimbal_angle,
         seed: case.seed,
     }
+}
+
+/// The vehicle as the flight computer believes it to be, with nothing in its grips and tank, and its
+/// wheels counted for themselves, as the world does.
+pub(crate) fn believed_alone(case: &Case) -> VehicleRobot {
+    let mut equipment = equipment(case);
+    equipment.actuators.tank = None;
+    let world = World::new(&WorldSetup {
+        robot: case.believed_robot(),
+        limits: &case.vehicle.limits,
+        actuator: None,
+        equipment,
+        base: case.base,
+        stepper: case.stepper,
+        start: case.start,
+        held: &[],
+    });
+    *world.robot()
 }

@@ -4,6 +4,7 @@ use crate::base_format::{
     ActuatorsFile, EstimationFile, FailureFile, PositionHoldFile, SensingFile, SteeringFile,
     StudyFile, WrenchFile,
 };
+use crate::dispersion_format::DisperseFile;
 use crate::phase_format::PhaseFile;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -54,6 +55,9 @@ pub(crate) struct MissionFile {
     /// How much is recorded.
     #[serde(default)]
     pub(crate) output: OutputFile,
+    /// What is not known exactly: `wrasse sweep` flies samples of it.
+    #[serde(default)]
+    pub(crate) disperse: Vec<DisperseFile>,
     /// Variants to compare: every combination of one row from each axis is run.
     #[serde(default)]
     pub(crate) compare: Vec<AxisFile>,

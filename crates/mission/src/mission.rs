@@ -2,6 +2,7 @@
 
 use crate::applied_wrench::AppliedWrench;
 use crate::base_format::{ClaimIs, StudyFile};
+use crate::dispersion::Dispersion;
 use crate::quantity::Quantity;
 use crate::read_base::Turning;
 use crate::requirement::Requirement;
@@ -12,7 +13,7 @@ use wrasse_flight::steering::Unit;
 use wrasse_flight::{Phase, Setup};
 use wrasse_hardware::Sensors;
 use wrasse_spatial::{Pose, SpatialVelocity, Sym3};
-use wrasse_vehicle::{Equipment, JOINTS, Vehicle};
+use wrasse_vehicle::{Equipment, JOINTS, Vehicle, VehicleRobot};
 use wrasse_world::{BaseAttitude, Failure, FreeBody, Stepper};
 
 /// A mission file, checked.
@@ -124,12 +125,25 @@ pub(crate) struct Case {
     pub(crate) torque: [bool; JOINTS],
     pub(crate) setup: Setup<f64, JOINTS>,
     pub(crate) phases: Vec<PhaseCase>,
+    /// What a sample of a sweep draws anew.
+    pub(crate) dispersions: Vec<Dispersion>,
+    /// What the flight computer takes the masses for, where they are otherwise.
+    pub(crate) believed: Option<Box<Believed>>,
     pub(crate) requirements: Vec<Requirement>,
     pub(crate) quantities: Vec<Quantity>,
     /// Samples per second in the telemetry.
     pub(crate) output_rate: f64,
     /// Instants in the drawing.
     pub(crate) snapshots: u32,
+}
+
+/// Mass properties in the flight computer's belief.
+#[derive(Debug, Clone)]
+pub(crate) struct Believed {
+    /// The vehicle with nothing in its grips and tank.
+    pub(crate) robot: VehicleRobot,
+    /// The payloads.
+    pub(crate) matters: Vec<Payload<f64>>,
 }
 
 /// A unit that fails on the way.
@@ -188,18 +202,31 @@ impl Case {
     pub(crate) fn periods_per_sample(&self) -> u64 {
         (1.0 / (self.output_rate * self.period())).round().max(1.0) as u64
     }
-    /// The robot with what it holds from the start, and with its propellant.
+    /// The vehicle as the flight computer believes it to be, with nothing in its grips and tank.
+    pub(crate) fn believed_robot(&self) -> &VehicleRobot {
+        self.believed.as_ref().map_or(&self.vehicle.robot, |believed| &believed.robot)
+    }
+    /// A payload as the flight computer believes it to be.
+    pub(crate) fn believed_matter(&self, payload: usize) -> Payload<f64> {
+        let believed = self.believed.as_ref().and_then(|believed| believed.matters.get(payload));
+        believed.copied().unwrap_or(self.payloads[payload].matter)
+    }
+    /// The robot that the flight computer believes in, with what it holds from the start, and with its
+    /// propellant.
     pub(crate) fn robot_at_start(&self) -> Robot<f64, JOINTS> {
         let fuelled = match self.equipment.actuators.tank {
             Some(tank) => {
                 let base = Frame { body: BodyId::Base, X_BF: Pose::identity() };
                 let matter = Payload::from_central(tank.propellant, tank.position_B, Sym3::zero());
-                self.vehicle.robot.with_payload(&base, &matter)
+                self.believed_robot().with_payload(&base, &matter)
             }
-            None => self.vehicle.robot,
+            None => *self.believed_robot(),
         };
-        let held = self.held_at_start();
-        held.iter().fold(fuelled, |robot, (frame, matter)| robot.with_payload(frame, matter))
+        let held = self.payloads.iter().enumerate().filter_map(|(i, p)| match p.start {
+            PayloadStart::Held(frame) => Some((frame, self.believed_matter(i))),
+            PayloadStart::Free(..) => None,
+        });
+        held.fold(fuelled, |robot, (frame, matter)| robot.with_payload(&frame, &matter))
     }
     /// Payloads held from the start.
     pub(crate) fn held_at_start(&self) -> Vec<(Frame<f64>, Payload<f64>)> {
@@ -209,13 +236,12 @@ impl Case {
         });
         held.collect()
     }
-    /// A payload as a free body; where it would be, if it is held.
-    pub(crate) fn free_body(&self, payload: usize) -> FreeBody {
-        let p = &self.payloads[payload];
-        match p.start {
-            PayloadStart::Free(X_NT, V_NT_T) => FreeBody::new(p.matter, &X_NT, &V_NT_T),
+    /// A payload of this matter as a free body; where it would be, if it is held.
+    pub(crate) fn free_body(&self, payload: usize, matter: Payload<f64>) -> FreeBody {
+        match self.payloads[payload].start {
+            PayloadStart::Free(X_NT, V_NT_T) => FreeBody::new(matter, &X_NT, &V_NT_T),
             PayloadStart::Held(_) => {
-                FreeBody::new(p.matter, &Pose::identity(), &SpatialVelocity::zero())
+                FreeBody::new(matter, &Pose::identity(), &SpatialVelocity::zero())
             }
         }
     }

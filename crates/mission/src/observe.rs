@@ -5,8 +5,8 @@ use crate::mission::Case;
 use crate::quantity::FIXED_COUNT;
 use crate::read_base::Turning;
 use wrasse_dynamics::{
-    BodyId, Dynamics, JointKind, Kinematics, PerBody, State, inverse_dynamics, kinematics,
-    kinetic_energy, mount_reaction,
+    BodyId, Dynamics, Frame, Generalized, JointKind, Kinematics, PerBody, State, inverse_dynamics,
+    kinematics, kinetic_energy, mount_reaction,
 };
 use wrasse_flight::{Axes, Command, FlightComputer};
 use wrasse_hardware::ActuatorReadings;
@@ -35,9 +35,54 @@ pub(crate) struct Observation {
     pub(crate) base_shift: Vec3<f64>,
     /// What wheels, gyros and thrusters say.
     pub(crate) readings: ActuatorReadings<f64>,
-    /// Values in the order of the quantities.
-    pub(crate) values: Vec<f64>,
+    /// Values in the order of the quantities; NaN behind the last.
+    pub(crate) values: [f64; VALUES],
 }
+
+/// What is looked at beside where everything is: the rest costs time, and is NaN where it is not needed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(clippy::struct_excessive_bools, reason = "each is a need of its own")]
+pub(crate) struct Needs {
+    /// Accelerations, forces of the joints, torque on the base.
+    pub(crate) dynamics: bool,
+    /// Forces at the mounts, and what the base feels of the arms.
+    pub(crate) mounts: bool,
+    /// How near the arm is to its reach and to a singular posture.
+    pub(crate) shape: bool,
+    pub(crate) energy: bool,
+    /// What wheels, gyros and tank say of themselves.
+    pub(crate) readings: bool,
+    /// Torque of the gimbals' motors.
+    pub(crate) motors: bool,
+}
+
+impl Needs {
+    /// Everything.
+    pub(crate) const ALL: Self = Self {
+        dynamics: true,
+        mounts: true,
+        shape: true,
+        energy: true,
+        readings: true,
+        motors: true,
+    };
+    /// What these quantities need.
+    pub(crate) fn of<'a>(names: &(impl Iterator<Item = &'a str> + Clone)) -> Self {
+        let any = |parts: &[&str]| names.clone().any(|name| parts.iter().any(|p| name.contains(p)));
+        let mounts = any(&["mount."]);
+        Self {
+            mounts,
+            dynamics: mounts || any(&["effort", "attitude.torque"]),
+            shape: any(&["arm."]),
+            energy: any(&["energy"]),
+            readings: any(&["attitude.momentum", "wheels.", "gyros.", "thrusters."]),
+            motors: any(&["gyros.motor_torque"]),
+        }
+    }
+}
+
+/// Most quantities: those of any vehicle, and four for each joint.
+const VALUES: usize = FIXED_COUNT + 4 * JOINTS;
 
 /// The line that the tool follows, for errors along and across it.
 #[derive(Debug, Clone, Copy, Default)]
@@ -82,9 +127,10 @@ pub(crate) fn observe(
     command: &Command<f64, JOINTS>,
     track: &Track,
     estimate_error: f64,
+    needs: Needs,
 ) -> Observation {
     let state = world.state();
-    let dynamics = world.dynamics();
+    let dynamics = if needs.dynamics { world.dynamics() } else { not_looked_at() };
     let k = kinematics(world.robot(), &state);
     let tool = *computer.tool();
     let X_NE = k.pose(&tool);
@@ -96,42 +142,80 @@ pub(crate) fn observe(
     let rotation = Quat::from_matrix(&(seen.rotation * wanted.rotation.transpose())).log();
     let start = &case.start.X_NB;
     let turned = start.rotation.transpose() * state.X_NB.rotation;
-    let (mounts, reaction_B) = mounts(&k, &dynamics);
+    let nan = f64::NAN;
+    let nothing = Vec3::from_array([nan; 3]);
+    let (mounts, reaction_B) =
+        if needs.mounts { mounts(&k, &dynamics) } else { ((nan, nan), nothing) };
+    let readings =
+        if needs.readings { world.actuator_readings() } else { ActuatorReadings::default() };
     let mut seen = Observation {
         dynamics,
         torque_B: match case.turning {
+            _ if !needs.dynamics => nothing,
             Turning::Fitted if stores_momentum(case) => world.turning_torque_B(),
             // Thrusters come in pulses: there is no torque at an instant that says anything.
-            Turning::Fitted => Vec3::from_array([f64::NAN; 3]),
+            Turning::Fitted => nothing,
             Turning::Ideal(_) => world.actuator_torque_B() + dynamics.force.base.torque,
         },
         reaction_B,
         stored_B: match case.turning {
-            Turning::Fitted => stored(case, &world.actuator_readings()),
+            Turning::Fitted => stored(case, &readings),
             Turning::Ideal(_) => world.stored_momentum_B(),
         },
-        readings: world.actuator_readings(),
+        readings,
         tool_error: (seen.translation - wanted.translation, rotation),
         X_NE,
         V_NE: k.velocity(&tool),
         base_turn: Quat::from_matrix(&turned).log(),
         base_shift: state.X_NB.translation - start.translation,
-        values: Vec::with_capacity(FIXED_COUNT + 4 * world.robot().joint_count()),
+        values: [nan; VALUES],
         state,
     };
-    let shape = (
-        reach_margin(&k, &tool).unwrap_or(f64::NAN),
-        smallest_singular_value(&computer.task_jacobian(), case.setup.assignment.task),
-    );
-    seen.values = values(case, &seen, track, mounts, shape, kinetic_energy(&k));
-    seen.values.extend(of_equipment(case, world, command, &seen, estimate_error));
-    for j in world.robot().joints() {
-        seen.values.push(seen.state.q[j] - case.start.q[j]);
-        seen.values.push(command.set_points[j].position - case.start.q[j]);
-        seen.values.push(seen.state.v[j]);
-        seen.values.push(seen.dynamics.force.joints[j]);
-    }
+    let shape = if needs.shape { shape(case, computer, &k, &tool) } else { (nan, nan) };
+    let energy = if needs.energy { kinetic_energy(&k) } else { nan };
+    let of_any = values(case, &seen, track, mounts, shape, energy);
+    let motors = if needs.motors { motor_torque(case, world) } else { nan };
+    let equipped = of_equipment(case, command, &seen, estimate_error, motors);
+    let of_joints = world.robot().joints().flat_map(|j| {
+        [
+            seen.state.q[j] - case.start.q[j],
+            command.set_points[j].position - case.start.q[j],
+            seen.state.v[j],
+            seen.dynamics.force.joints[j],
+        ]
+    });
+    let all = of_any.into_iter().chain(equipped).chain(of_joints);
+    seen.values.iter_mut().zip(all).for_each(|(to, value)| *to = value);
     seen
+}
+
+/// How much farther the tool could reach (m), and how far the arm is from a singular posture (–).
+fn shape(
+    case: &Case,
+    computer: &FlightComputer<f64, JOINTS>,
+    k: &Kinematics<'_, f64, JOINTS>,
+    tool: &Frame<f64>,
+) -> (f64, f64) {
+    let reach = reach_margin(k, tool).unwrap_or(f64::NAN);
+    (reach, smallest_singular_value(&computer.task_jacobian(), case.setup.assignment.task))
+}
+
+/// Accelerations and forces that nobody asked for.
+fn not_looked_at() -> Dynamics<f64, JOINTS> {
+    let nan = f64::NAN;
+    let nothing = Vec3::from_array([nan; 3]);
+    Dynamics {
+        nudot: Generalized { base: SpatialVelocity::new(nothing, nothing), joints: [nan; JOINTS] },
+        force: Generalized { base: SpatialForce::new(nothing, nothing), joints: [nan; JOINTS] },
+    }
+}
+
+/// Largest torque of a gimbal's motor (N·m); NaN without gyros.
+fn motor_torque(case: &Case, world: &World<JOINTS>) -> f64 {
+    if case.equipment.actuators.gyros.is_empty() {
+        return f64::NAN;
+    }
+    world.gimbal_motor_torque().iter().fold(0.0, |most: f64, x| most.max(x.abs()))
 }
 
 /// Momentum in wheels and gyros beside the base (N·m·s, base axes).
@@ -151,20 +235,15 @@ fn stores_momentum(case: &Case) -> bool {
 /// none.
 fn of_equipment(
     case: &Case,
-    world: &World<JOINTS>,
     command: &Command<f64, JOINTS>,
     seen: &Observation,
     estimate_error: f64,
+    motor_torque: f64,
 ) -> [f64; 8] {
     let (actuators, readings) = (&case.equipment.actuators, &seen.readings);
     let largest = |uses: &mut dyn Iterator<Item = f64>| uses.fold(f64::NAN, f64::max);
     let wheels = actuators.wheels.iter().zip(readings.wheel_speed);
     let gyros = actuators.gyros.iter().zip(readings.gimbal_rate);
-    let motor_torque = if actuators.gyros.is_empty() {
-        f64::NAN
-    } else {
-        world.gimbal_motor_torque().iter().fold(0.0, |most: f64, x| most.max(x.abs()))
-    };
     let fitted = case.turning == Turning::Fitted;
     let missing = |x: f64| if fitted { x } else { f64::NAN };
     let tank = actuators.tank.map_or(f64::NAN, |tank| tank.propellant);
@@ -206,7 +285,7 @@ fn values(
     mounts: (f64, f64),
     shape: (f64, f64),
     energy: f64,
-) -> Vec<f64> {
+) -> [f64; FIXED_COUNT - 8] {
     let (along, across) = track.split(seen.tool_error.0);
     let use_of = |value: &dyn Fn(usize) -> (f64, Option<f64>)| {
         let shares = (0..case.vehicle.limits.len()).filter_map(|j| {
@@ -224,7 +303,7 @@ fn values(
         });
         margins.fold(f64::NAN, f64::min)
     };
-    vec![
+    [
         seen.tool_error.0.norm(),
         along,
         across,

@@ -2,7 +2,7 @@
 //! record, draw or judge it.
 
 use crate::observe::Observation;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use wrasse_flight::Command;
 use wrasse_vehicle::JOINTS;
 
@@ -61,7 +61,7 @@ pub struct ProvenanceRow {
 }
 
 /// How a case ended.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", tag = "kind")]
 pub enum End {
     /// All phases were flown.

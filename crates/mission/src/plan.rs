@@ -120,11 +120,11 @@ impl<'a> Belief<'a> {
         let mut setup = case.setup;
         (setup.base.steering, setup.base.position_hold) = (None, None);
         let held = case.payloads.iter().enumerate().filter_map(|(i, p)| match p.start {
-            PayloadStart::Held(frame) => Some((i, frame, p.matter)),
+            PayloadStart::Held(frame) => Some((i, frame, case.believed_matter(i))),
             PayloadStart::Free(..) => None,
         });
         let free = case.payloads.iter().enumerate().map(|(i, p)| match p.start {
-            PayloadStart::Free(..) => Some(case.free_body(i)),
+            PayloadStart::Free(..) => Some(case.free_body(i, case.believed_matter(i))),
             PayloadStart::Held(_) => None,
         });
         Self {
@@ -135,7 +135,7 @@ impl<'a> Belief<'a> {
         }
     }
     fn robot(&self) -> Robot<f64, JOINTS> {
-        let empty = self.case.vehicle.robot;
+        let empty = *self.case.believed_robot();
         self.held.iter().fold(empty, |robot, (_, frame, matter)| robot.with_payload(frame, matter))
     }
     fn float_on(&mut self) {

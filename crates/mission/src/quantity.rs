@@ -241,6 +241,16 @@ impl Watch {
             Some(phase) => self.phases.get(phase)?.get(quantity)?.get(statistic),
         }
     }
+    /// Values of these quantities at one instant of a phase; of all others nothing is kept.
+    pub(crate) fn add_only(&mut self, only: &[usize], phase: usize, values: &[f64]) {
+        for &i in only {
+            let Some(&x) = values.get(i) else { continue };
+            self.whole[i].add(x);
+            if let Some(running) = self.phases.get_mut(phase) {
+                running[i].add(x);
+            }
+        }
+    }
     /// Every metric that has a value, over the whole run.
     pub(crate) fn metrics(&self) -> Vec<Metric> {
         let mut metrics = vec![];

@@ -1,12 +1,14 @@
 //! A mission file to a checked mission, with all complaints at once.
 
+use crate::dispersible::Nominal;
 use crate::format::MissionFile;
-use crate::mission::{Case, Mission, Study};
+use crate::mission::{Case, Mission, PayloadCase, PhaseCase, Study};
 use crate::phase_format::PhaseFile;
 use crate::quantity::{Quantity, quantities};
 use crate::read_base::{
     Turning, applied_wrenches, base_control, equipment, failures, navigation, sensors, turning,
 };
+use crate::read_dispersions::dispersions;
 use crate::read_payload::payloads;
 use crate::read_phase::phase;
 use crate::read_setup::{base_attitude, setup, start, stepper, torque_joints};
@@ -167,20 +169,16 @@ fn read_case(
     let payloads = payloads(r, &file, &start);
     let base = base_attitude(r, &file, &start);
     let names: Vec<String> = file.phase.iter().map(|p| p.name.clone()).collect();
-    check_phase_list(r, &file.phase);
-    let payload_names: Vec<String> = payloads.iter().map(|p| p.name.clone()).collect();
-    let phases = file.phase.iter().enumerate();
-    let phases = phases.filter_map(|(i, p)| phase(r, i, p, &payload_names, &file)).collect();
+    let phases = phases(r, &file, &payloads);
     let (quantities, requirements) = requirements(r, &file, &names);
     let torque = torque_joints(r, &file);
-    let output_rate = r.positive(at!["output", "rate_hz"], file.output.rate_hz);
-    let why = "the first and the last instant are always drawn, and more do not fit in a picture";
-    let count = f64::from(file.output.snapshots);
-    r.within(at!["output", "snapshots"], count, SNAPSHOTS, why);
+    let output_rate = output_rate(r, &file);
     let stepper = stepper(r, &file);
     let (modulation, period) = (base_control.steering.map(|s| s.modulation), setup.tuning.period);
     let sampling = Sampling { equipment: &equipment, base, turning, stepper, period, modulation };
     check_sampling(r, &file, &sampling);
+    let nominal = Nominal { vehicle: &vehicle, start: &start, payloads: &payloads, sensors, base };
+    let dispersions = dispersions(r, &file.disperse, &nominal);
     let complaints = reading.complaints;
     if complaints.iter().any(|c| c.severity == Severity::Error) {
         return Err(complaints);
@@ -203,12 +201,22 @@ fn read_case(
         torque,
         setup,
         phases,
+        dispersions,
+        believed: None,
         requirements,
         quantities,
         output_rate,
         snapshots: file.output.snapshots,
     };
     Ok((case, complaints))
+}
+
+/// Samples per second in the telemetry.
+fn output_rate(r: &mut Reading<'_>, file: &MissionFile) -> f64 {
+    let why = "the first and the last instant are always drawn, and more do not fit in a picture";
+    let count = f64::from(file.output.snapshots);
+    r.within(at!["output", "snapshots"], count, SNAPSHOTS, why);
+    r.positive(at!["output", "rate_hz"], file.output.rate_hz)
 }
 
 /// The quantities that are watched, and what is required of them.
@@ -244,6 +252,14 @@ fn vehicle_of(file: &MissionFile, document: &Document) -> Result<Vehicle, Vec<Co
         NoVehicle::Faulty(complaints) => complaints,
         _ => vec![document.error(at!["vehicle"], "this vehicle cannot be read", "here")],
     })
+}
+
+/// What happens, one after the other.
+fn phases(r: &mut Reading<'_>, file: &MissionFile, payloads: &[PayloadCase]) -> Vec<PhaseCase> {
+    check_phase_list(r, &file.phase);
+    let names: Vec<String> = payloads.iter().map(|p| p.name.clone()).collect();
+    let phases = file.phase.iter().enumerate();
+    phases.filter_map(|(i, p)| phase(r, i, p, &names, file)).collect()
 }
 
 fn check_phase_list(r: &mut Reading<'_>, phases: &[PhaseFile]) {

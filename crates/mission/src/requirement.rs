@@ -128,6 +128,11 @@ impl Requirement {
         }
     }
 
+    /// Number of the quantity that it is about.
+    pub(crate) fn quantity(&self) -> usize {
+        self.quantity
+    }
+
     /// The verdict of a run that never came to a value.
     pub(crate) fn unanswered(&self) -> Verdict {
         Verdict {

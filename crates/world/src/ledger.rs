@@ -2,9 +2,10 @@
 //! those who act. It reads poses and twists, never the momentum that the integrator carries; what a
 //! twist is worth is for the energy to say, for twists follow from that momentum.
 
+use crate::free_body::FreeBody;
 use crate::propellant::Carried;
 use crate::world::World;
-use wrasse_dynamics::{State, kinematics, kinetic_energy};
+use wrasse_dynamics::{PerBody, State, kinematics, kinetic_energy};
 use wrasse_spatial::Vec3;
 
 /// Momentum and energy at one instant, from poses and twists alone.
@@ -59,13 +60,30 @@ pub struct Ledger {
     pub scale: [f64; 3],
 }
 
+/// One body in the books: mass (kg), centre of mass (m), linear momentum (N·s), angular momentum about
+/// its centre of mass (N·m·s), inertial axes.
+#[derive(Debug, Clone, Copy, Default)]
+struct Part {
+    mass: f64,
+    p_cm: Vec3<f64>,
+    linear: Vec3<f64>,
+    angular: Vec3<f64>,
+}
+
+/// A free body in the books: from its twist, like every other body.
+fn part(body: &FreeBody) -> Part {
+    let (M, R_NT) = (body.matter.M_F_F, body.pose().rotation);
+    let h_T = M * body.twist();
+    let about_cm = h_T.about(M.centre_of_mass()).torque;
+    Part { mass: M.mass, p_cm: body.p_NTcm_N, linear: R_NT * h_T.force, angular: R_NT * about_cm }
+}
+
 impl<const J: usize> World<J> {
     /// Momentum and energy of everything, body by body.
     pub fn account(&self) -> Account {
         let state = self.state();
         let k = kinematics(&self.robot, &state);
-        // (mass, centre of mass, linear momentum, angular momentum about it)
-        let mut parts = Vec::with_capacity(1 + J + self.free.len());
+        let mut own: PerBody<Part, J> = PerBody::filled(Part::default());
         for body in self.robot.bodies() {
             let (X_NB, M) = (&k.X_NB(body), self.robot.inertia(body));
             if M.mass == 0.0 {
@@ -73,28 +91,23 @@ impl<const J: usize> World<J> {
             }
             let h_B = *M * k.V_NB_B(body);
             let p_BBcm_B = M.centre_of_mass();
-            parts.push((
-                M.mass,
-                X_NB.point(p_BBcm_B),
-                X_NB.rotation * h_B.force,
-                X_NB.rotation * h_B.about(p_BBcm_B).torque,
-            ));
+            own[body] = Part {
+                mass: M.mass,
+                p_cm: X_NB.point(p_BBcm_B),
+                linear: X_NB.rotation * h_B.force,
+                angular: X_NB.rotation * h_B.about(p_BBcm_B).torque,
+            };
         }
-        let mut energy = kinetic_energy(&k);
-        for body in &self.free {
-            // From its twist, like every other body.
-            let (M, R_NT) = (body.matter.M_F_F, body.pose().rotation);
-            let h_T = M * body.twist();
-            let about_cm = h_T.about(M.centre_of_mass()).torque;
-            parts.push((M.mass, body.p_NTcm_N, R_NT * h_T.force, R_NT * about_cm));
-            energy += body.kinetic_energy();
-        }
-        let mass: f64 = parts.iter().map(|p| p.0).sum();
-        let moment = parts.iter().fold(Vec3::zero(), |s, p| s + p.1 * p.0);
+        // Once for the common centre of mass, once about it: nothing needs to be kept.
+        let parts = || self.robot.bodies().map(|body| own[body]).chain(self.free.iter().map(part));
+        let energies = self.free.iter().map(FreeBody::kinetic_energy);
+        let energy = energies.fold(kinetic_energy(&k), |sum, energy| sum + energy);
+        let mass: f64 = parts().map(|p| p.mass).sum();
+        let moment = parts().fold(Vec3::zero(), |s, p| s + p.p_cm * p.mass);
         let mut account =
             Account { centre_of_mass: moment * (1.0 / mass), energy, ..Account::default() };
-        for (_, p_cm, linear, own) in parts {
-            let angular = own + (p_cm - account.centre_of_mass).cross(linear);
+        for Part { p_cm, linear, angular, .. } in parts() {
+            let angular = angular + (p_cm - account.centre_of_mass).cross(linear);
             account.linear += linear;
             account.angular += angular;
             account.linear_scale += linear.norm();

@@ -1,0 +1,185 @@
+//! The numbers of a case that can be dispersed: their names, units, and how far they may go.
+
+use crate::dispersion::Target;
+use crate::mission::{PayloadCase, PayloadStart};
+use wrasse_dynamics::{JointKind, State};
+use wrasse_hardware::Sensors;
+use wrasse_spatial::Pose;
+use wrasse_vehicle::{JOINTS, Vehicle};
+use wrasse_world::BaseAttitude;
+
+/// A number that can be dispersed.
+#[derive(Debug, Clone)]
+pub(crate) struct Dispersible {
+    /// Its name, with axis or joint and unit.
+    pub(crate) name: String,
+    pub(crate) target: Target,
+    /// What the unit of the name is in SI.
+    pub(crate) scale: f64,
+    /// Least and largest deviation that leave it possible, in the unit of the name; and why.
+    pub(crate) room: (f64, f64),
+    pub(crate) why: String,
+}
+
+/// What is known of a case when its dispersions are read.
+pub(crate) struct Nominal<'a> {
+    pub(crate) vehicle: &'a Vehicle,
+    pub(crate) start: &'a State<f64, JOINTS>,
+    pub(crate) payloads: &'a [PayloadCase],
+    pub(crate) sensors: Option<Sensors<f64>>,
+    pub(crate) base: BaseAttitude,
+}
+
+/// How the names are made up, for those who look for one.
+pub(crate) const FORMS: &str = "body.LINK or payload.NAME with .mass_kg, .centre_of_mass_m or \
+    .inertia_percent; payload.NAME (if free) with .position_m, .rotation_deg, .velocity_m_s or \
+    .angular_velocity_deg_s; initial with these four or .joints_deg, .joints_m, .joint_rates_deg_s, \
+    .joint_rates_m_s; sensors.gyro.bias_deg_h, sensors.gyro.noise_percent, \
+    sensors.star_tracker.noise_percent, sensors.encoder_step_percent. Behind them .x, .y, .z or the name \
+    of a joint, or nothing: each of them alike";
+
+const DEGREES: f64 = std::f64::consts::PI / 180.0;
+const ANYWHERE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
+/// Least deviation of something in percent of itself: what is left is above zero.
+const PERCENT: (f64, f64) = (-100.0 * NEARLY, f64::INFINITY);
+/// A little less than one: what is taken away leaves something.
+const NEARLY: f64 = 1.0 - 1e-9;
+
+impl Nominal<'_> {
+    /// All numbers of the case that can be dispersed.
+    pub(crate) fn dispersible(&self) -> Vec<Dispersible> {
+        let mut all = vec![];
+        self.bodies(&mut all);
+        self.payloads(&mut all);
+        self.base(&mut all);
+        self.joints(&mut all);
+        self.sensors(&mut all);
+        all
+    }
+
+    /// The rigid bodies, by every link or frame whose axes are those of the body.
+    fn bodies(&self, all: &mut Vec<Dispersible>) {
+        let own = |frame: &&wrasse_vehicle::NamedFrame| frame.frame.X_BF == Pose::identity();
+        for named in self.vehicle.frames.iter().filter(own) {
+            let body = named.frame.body;
+            let mass = self.vehicle.robot.inertia(body).mass;
+            // Of a body without mass there is nothing to deviate from.
+            if mass <= 0.0 {
+                continue;
+            }
+            let name = format!("body.{}", named.name);
+            matter(all, &name, mass, Target::BodyMass(body), Target::BodyInertia(body));
+            along_axes(all, &format!("{name}.centre_of_mass_m"), 1.0, |i| {
+                Target::BodyCentre(body, i)
+            });
+        }
+    }
+
+    fn payloads(&self, all: &mut Vec<Dispersible>) {
+        for (i, payload) in self.payloads.iter().enumerate() {
+            let name = format!("payload.{}", payload.name);
+            let mass = payload.matter.M_F_F.mass;
+            matter(all, &name, mass, Target::PayloadMass(i), Target::PayloadInertia(i));
+            let mut add = |key: &str, scale: f64, target: fn(usize, usize) -> Target| {
+                along_axes(all, &format!("{name}.{key}"), scale, |axis| target(i, axis));
+            };
+            add("centre_of_mass_m", 1.0, Target::PayloadCentre);
+            if matches!(payload.start, PayloadStart::Free(..)) {
+                add("position_m", 1.0, Target::PayloadPosition);
+                add("rotation_deg", DEGREES, Target::PayloadRotation);
+                add("velocity_m_s", 1.0, Target::PayloadVelocity);
+                add("angular_velocity_deg_s", DEGREES, Target::PayloadTurn);
+            }
+        }
+    }
+
+    fn base(&self, all: &mut Vec<Dispersible>) {
+        along_axes(all, "initial.position_m", 1.0, Target::Position);
+        along_axes(all, "initial.rotation_deg", DEGREES, Target::Rotation);
+        along_axes(all, "initial.velocity_m_s", 1.0, Target::Velocity);
+        along_axes(all, "initial.angular_velocity_deg_s", DEGREES, Target::Turn);
+        if self.base == BaseAttitude::Held {
+            for held in all.iter_mut().filter(|d| matches!(d.target, Target::Turn(_))) {
+                (held.room, held.why) = ((0.0, 0.0), "a base that is held does not turn".into());
+            }
+        }
+    }
+
+    fn joints(&self, all: &mut Vec<Dispersible>) {
+        let vehicle = self.vehicle;
+        for (j, name) in vehicle.joint_names.iter().enumerate() {
+            let turns = vehicle.robot.joint(j).kind == JointKind::Revolute;
+            let (keys, scale) = if turns {
+                (["joints_deg", "joint_rates_deg_s"], DEGREES)
+            } else {
+                (["joints_m", "joint_rates_m_s"], 1.0)
+            };
+            let (room, why) = match vehicle.limits[j].travel {
+                None => (ANYWHERE, String::new()),
+                Some((lower, upper)) => {
+                    let left = |end: f64| (end - self.start.q[j]) / scale;
+                    let why = "the joint starts within its travel".into();
+                    ((left(lower).min(0.0), left(upper).max(0.0)), why)
+                }
+            };
+            let [position, rate] = keys.map(|key| format!("initial.{key}.{name}"));
+            all.push(Dispersible { name: position, target: Target::Joint(j), scale, room, why });
+            let why = String::new();
+            let (target, room) = (Target::JointRate(j), ANYWHERE);
+            all.push(Dispersible { name: rate, target, scale, room, why });
+        }
+    }
+
+    fn sensors(&self, all: &mut Vec<Dispersible>) {
+        let Some(sensors) = self.sensors else { return };
+        let mut share = |name: &str, target| {
+            let why = "less than nothing cannot be left".into();
+            let (name, scale, room) = (name.into(), 0.01, PERCENT);
+            all.push(Dispersible { name, target, scale, room, why });
+        };
+        if sensors.encoder_step > 0.0 {
+            share("sensors.encoder_step_percent", Target::EncoderStep);
+        }
+        if sensors.attitude.is_some() {
+            share("sensors.gyro.noise_percent", Target::GyroNoise);
+            share("sensors.star_tracker.noise_percent", Target::TrackerNoise);
+            along_axes(all, "sensors.gyro.bias_deg_h", DEGREES / 3600.0, Target::GyroBias);
+        }
+    }
+}
+
+/// Mass and inertia of a body.
+fn matter(all: &mut Vec<Dispersible>, name: &str, mass: f64, of_mass: Target, of_inertia: Target) {
+    all.push(Dispersible {
+        name: format!("{name}.mass_kg"),
+        target: of_mass,
+        scale: 1.0,
+        room: (-mass * NEARLY, f64::INFINITY),
+        why: format!("a mass stays above zero, and this one is {mass} kg"),
+    });
+    all.push(Dispersible {
+        name: format!("{name}.inertia_percent"),
+        target: of_inertia,
+        scale: 0.01,
+        room: PERCENT,
+        why: "an inertia stays above zero".into(),
+    });
+}
+
+/// One for each axis.
+fn along_axes(
+    all: &mut Vec<Dispersible>,
+    name: &str,
+    scale: f64,
+    target: impl Fn(usize) -> Target,
+) {
+    for (i, axis) in ["x", "y", "z"].into_iter().enumerate() {
+        all.push(Dispersible {
+            name: format!("{name}.{axis}"),
+            target: target(i),
+            scale,
+            room: ANYWHERE,
+            why: String::new(),
+        });
+    }
+}

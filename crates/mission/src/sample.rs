@@ -1,0 +1,189 @@
+//! Samples of a mission: cases whose dispersed quantities were drawn, flown for their verdicts only.
+//!
+//! A sample is the same to the last bit whether it is flown here, beside others, or by
+//! [`run`](crate::run) with all that a report shows.
+
+use crate::books::ledger;
+use crate::dispersion::draws;
+use crate::flight::Flight;
+use crate::mission::{Case, Mission};
+use crate::observe::{Needs, Track, observe};
+use crate::outcome::{End, Verdict};
+use crate::plan::{Plan, plan};
+use crate::quantity::Watch;
+use crate::requirement::Requirement;
+use std::fmt::Write;
+use std::ops::Range;
+
+/// What came of a sample.
+#[derive(Debug, Clone)]
+pub struct SampleOutcome {
+    /// Its number.
+    pub sample: u64,
+    /// What was drawn: deviations from what the files say, in the order and the units of
+    /// [`Mission::dispersed`].
+    pub deviations: Vec<f64>,
+    /// How it ended.
+    pub end: End,
+    /// Whether its books of momentum and energy close.
+    pub closes: bool,
+    /// It came to its end, its books close, and all requirements hold.
+    pub passed: bool,
+    /// Requirements and their verdicts, in the order of the file.
+    pub verdicts: Vec<Verdict>,
+}
+
+/// What all samples of a case have in common.
+#[derive(Debug)]
+pub struct SamplePlan<'m> {
+    case: &'m Case,
+    /// The plan, where nothing that is drawn is known to the laws as they plan.
+    plan: Option<Plan>,
+    needs: Needs,
+    /// Numbers of the quantities that are required.
+    watched: Vec<usize>,
+}
+
+impl Mission {
+    /// What a sample draws anew in a case, with units: `payload.module.mass_kg`.
+    ///
+    /// # Panics
+    /// If there is no case of this number.
+    pub fn dispersed(&self, case: usize) -> Vec<&str> {
+        self.cases[case].dispersions.iter().map(|d| d.name.as_str()).collect()
+    }
+
+    /// The requirements of a case, not yet answered.
+    ///
+    /// # Panics
+    /// If there is no case of this number.
+    pub fn required(&self, case: usize) -> Vec<Verdict> {
+        self.cases[case].requirements.iter().map(Requirement::unanswered).collect()
+    }
+
+    /// A number that another mission, as far as it decides what comes of a sample, all but surely does
+    /// not have. Names, words and places of files do not count.
+    pub fn fingerprint(&self) -> u64 {
+        let mut print = Fingerprint(FNV_OFFSET);
+        for case in &self.cases {
+            let Case { vehicle: v, labels, start, payloads, base, turning, equipment: e, .. } =
+                case;
+            // It swallows all: nothing can fail.
+            let _ = write!(print, "{:?}", (v.robot, &v.limits, &v.frames, v.attitude_actuator));
+            let _ = write!(print, "{:?}", (labels, start, payloads, base, turning));
+            let _ = write!(print, "{:?}", (e.actuators, e.wheel_speed, e.gimbal_angle));
+            let Case { sensors, feels_wrench, failures, wrenches, stepper, torque, .. } = case;
+            let _ = write!(print, "{:?}", (sensors, feels_wrench, failures, wrenches));
+            let _ = write!(print, "{:?}", (stepper, torque, &case.setup, &case.phases));
+            let _ = write!(print, "{:?}", (&case.dispersions, &case.requirements));
+        }
+        print.0
+    }
+
+    /// The mission that a sample of a seed flies: [`run`](crate::run) shows all of it.
+    #[must_use]
+    pub fn sampled(&self, seed: u64, sample: u64) -> Self {
+        let mut mission = self.clone();
+        mission.seed = seed;
+        mission.cases = self.cases.iter().map(|case| case.sampled(seed, sample)).collect();
+        let case = &self.cases[0];
+        let (_, sizes) = draws(&case.dispersions, seed, sample);
+        let drawn = case.dispersions.iter().zip(sizes).map(|(d, x)| format!("{} {x:+.5}", d.name));
+        let drawn: Vec<String> = drawn.collect();
+        mission.summary = format!(
+            "{} Sample {sample} of seed {seed}, off by: {}.",
+            self.summary,
+            drawn.join(", ")
+        );
+        mission
+    }
+}
+
+/// Fowler, Noll and Vo's hash, version 1a, of what is written to it.
+struct Fingerprint(u64);
+
+const FNV_OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
+const FNV_PRIME: u64 = 0x0100_0000_01b3;
+
+impl Write for Fingerprint {
+    fn write_str(&mut self, text: &str) -> std::fmt::Result {
+        for byte in text.bytes() {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(FNV_PRIME);
+        }
+        Ok(())
+    }
+}
+
+/// What can be prepared for all samples of a case.
+///
+/// # Panics
+/// If there is no case of this number.
+pub fn plan_samples(mission: &Mission, case: usize) -> SamplePlan<'_> {
+    let case = &mission.cases[case];
+    let mut watched: Vec<usize> = case.requirements.iter().map(Requirement::quantity).collect();
+    // Two requirements of one quantity: it counts once.
+    watched.sort_unstable();
+    watched.dedup();
+    let names = watched.iter().map(|&i| case.quantities[i].name.as_str());
+    // The planning sees what the laws believe and where everything is; of the rest it knows nothing.
+    let is_seen = case.dispersions.iter().any(|d| d.known || !d.target.can_be_known());
+    SamplePlan { case, plan: (!is_seen).then(|| plan(case)), needs: Needs::of(&names), watched }
+}
+
+/// Fly one sample of a seed.
+pub fn fly_sample(planned: &SamplePlan<'_>, seed: u64, sample: u64) -> SampleOutcome {
+    let case = planned.case.sampled(seed, sample);
+    let (_, deviations) = draws(&planned.case.dispersions, seed, sample);
+    let own;
+    let plan = if let Some(plan) = &planned.plan {
+        plan
+    } else {
+        own = plan(&case);
+        &own
+    };
+    if let Some(end) = &plan.blocked {
+        let verdicts = case.requirements.iter().map(Requirement::unanswered).collect();
+        let end = end.clone();
+        return SampleOutcome { sample, deviations, end, closes: true, passed: false, verdicts };
+    }
+    let (end, watch, closes) = fly_for_verdicts(&case, plan, planned);
+    let verdicts: Vec<_> = case.requirements.iter().map(|r| r.verdict(&watch)).collect();
+    let completed = matches!(end, End::Completed);
+    let passed = completed && closes && verdicts.iter().all(|v| v.pass);
+    SampleOutcome { sample, deviations, end, closes, passed, verdicts }
+}
+
+/// Fly some samples of a seed, in order.
+pub fn fly_chunk(planned: &SamplePlan<'_>, seed: u64, samples: Range<u64>) -> Vec<SampleOutcome> {
+    samples.map(|sample| fly_sample(planned, seed, sample)).collect()
+}
+
+/// Fly a case as planned, and look only at what is required: how it ended, what was seen, and whether
+/// the books close.
+fn fly_for_verdicts(case: &Case, plan: &Plan, planned: &SamplePlan<'_>) -> (End, Watch, bool) {
+    let mut flight = Flight::new(case, case.stepper, false);
+    let mut watch = Watch::new(case.quantities.clone(), case.phases.len());
+    let mut books = flight.world.open_ledger();
+    let mut track = Track::default();
+    let mut end = End::Completed;
+    for _ in 0..plan.periods {
+        flight.break_what_breaks();
+        let command = match flight.command() {
+            Ok(command) => command,
+            Err(stop) => {
+                end = stop;
+                break;
+            }
+        };
+        if let Some(stop) = flight.period(&command) {
+            end = stop;
+            break;
+        }
+        track.follow(&command, flight.computer.follows_tool());
+        flight.world.update_ledger(&mut books);
+        let (error, computer) = (flight.estimate_error, &flight.computer);
+        let seen = observe(case, &flight.world, computer, &command, &track, error, planned.needs);
+        watch.add_only(&planned.watched, command.phase, &seen.values);
+    }
+    (end, watch, ledger(&books, case.base).closes)
+}
