@@ -1,11 +1,11 @@
 //! Control of the base: the torque and force that it should feel, and who gives them.
 
-use crate::attitude_control::attitude_torque;
 use crate::law::{Feedforward, Tuning};
+use crate::period_command::Told;
 use crate::steering::{Needs, Steered, Steering, SteeringSetup, Unit};
 use wrasse_dynamics::{Robot, State, kinematics, momentum};
 use wrasse_hardware::ActuatorReadings;
-use wrasse_spatial::{Quat, Scalar, SpatialForce, SpatialInertia, Vec3};
+use wrasse_spatial::{Quat, Real, Scalar, SpatialForce, Vec3};
 
 /// How the centre of mass of the system is kept where it was at the start.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,7 +29,7 @@ pub struct BaseControlSetup<T> {
     pub steering: Option<SteeringSetup<T>>,
 }
 
-impl<T: Scalar> BaseControlSetup<T> {
+impl<T: Real> BaseControlSetup<T> {
     /// The attitude `quat_ND` kept by an ideal actuator; the base goes where the arm pushes it.
     pub fn ideal(feedforward: Feedforward, quat_ND: Quat<T>) -> Self {
         Self { feedforward, quat_ND, position_hold: None, steering: None }
@@ -60,39 +60,23 @@ impl<T: Scalar> BaseControl<T> {
         Self { steering: setup.steering.as_ref().map(Steering::new), setup, home: None }
     }
 
-    /// Torque that the base should feel (N·m, base axes) and what the actuators are told. `M_B` is the
-    /// inertia of the whole system with joints locked, `ahead_B` what is known to be needed (N·m, N).
+    /// What the actuators are told so that the base feels what it was `told` to.
     pub(crate) fn command<const J: usize>(
         &mut self,
         robot: &Robot<T, J>,
         tuning: &Tuning<T>,
-        M_B: &SpatialInertia<T>,
+        told: &Told<T, J>,
         sensed: &State<T, J>,
-        ahead_B: &SpatialForce<T>,
         readings: &ActuatorReadings<T>,
-    ) -> (Vec3<T>, Steered<T>) {
-        let quat_NB = Quat::from_matrix(&sensed.X_NB.rotation);
-        let w_NB_B = sensed.V_NB_B.angular;
-        let (I, quat_ND) = (M_B.central(), &self.setup.quat_ND);
-        let torque_B = ahead_B.torque + attitude_torque(tuning, &I, &quat_NB, w_NB_B, quat_ND);
+    ) -> Steered<T> {
         let mut force_B = self.holding_force(robot, sensed, tuning.period);
-        if self.holds_position() {
-            force_B += ahead_B.force;
+        if self.setup.position_hold.is_some() {
+            force_B += told.ahead_force_B;
         }
-        let steered = match &mut self.steering {
-            None => Steered::nothing(),
-            Some(steering) => {
-                let wanted = SpatialForce::new(torque_B, force_B);
-                let p_BScm_B = M_B.centre_of_mass();
-                steering.steer(&Needs { wanted, w_NB_B, p_BScm_B, period: tuning.period }, readings)
-            }
-        };
-        (torque_B, steered)
-    }
-
-    /// Whether the centre of mass is kept in its place.
-    pub(crate) fn holds_position(&self) -> bool {
-        self.setup.position_hold.is_some()
+        let Some(steering) = &mut self.steering else { return Steered::nothing() };
+        let wanted = SpatialForce::new(told.attitude_torque_B, force_B);
+        let (w_NB_B, p_BScm_B) = (sensed.V_NB_B.angular, told.M_B.centre_of_mass());
+        steering.steer(&Needs { wanted, w_NB_B, p_BScm_B, period: tuning.period }, readings)
     }
 
     /// Force that brings the centre of mass back to where it was, base axes (N).
@@ -121,10 +105,11 @@ impl<T: Scalar> BaseControl<T> {
     }
 
     /// Nothing is controlled for a while: nobody owes anything for it.
-    pub(crate) fn rest(&mut self) {
+    pub(crate) fn rest(&mut self) -> Steered<T> {
         if let Some(steering) = &mut self.steering {
             steering.rest();
         }
+        Steered::nothing()
     }
 
     /// Do without a unit from now on.

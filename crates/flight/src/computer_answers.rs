@@ -17,10 +17,10 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     /// Where the law believes the vehicle to be, and how it moves.
     pub fn believed_state(&self) -> State<T, J> {
         State {
-            X_NB: self.belief.X_NB,
-            V_NB_B: self.motion.rate.V_NB_B,
-            q: self.belief.q,
-            v: self.motion.rate.qdot,
+            X_NB: self.memory.belief.X_NB,
+            V_NB_B: self.memory.motion.rate.V_NB_B,
+            q: self.memory.belief.q,
+            v: self.memory.motion.rate.qdot,
         }
     }
 
@@ -36,15 +36,15 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
 
     /// How far the law believes the tool to be from its reference: distance (m) and angle (rad).
     pub fn believed_tool_error(&self) -> (T, T) {
-        let (X, wanted) = (self.believed_tool(self.axes), self.reference.X_NE);
+        let (X, wanted) = (self.believed_tool(self.memory.axes), self.memory.reference.X_NE);
         let turned = Quat::from_matrix(&(wanted.rotation * X.rotation.transpose())).log();
         ((wanted.translation - X.translation).norm(), turned.norm())
     }
 
     /// The law's Jacobian now: columns are the tool's twist per joint rate.
     pub fn task_jacobian(&self) -> [SpatialVelocity<T>; J] {
-        let to = Assignment { axes: self.axes, ..self.setup.assignment };
-        task_jacobian(&self.robot, &to, &self.belief)
+        let to = Assignment { axes: self.memory.axes, ..self.setup.assignment };
+        task_jacobian(&self.robot, &to, &self.memory.belief)
     }
 
     /// What is left of the line's end at the nearest joint positions that the law can find, if the
@@ -54,7 +54,8 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         let Path::Line(line, axes) = self.path else { return None };
         let X = line.at(line.duration()).X_NE;
         let (tool, law) = (&self.setup.assignment.tool, self.setup.assignment.law);
-        let state = State { X_NB: self.belief.X_NB, q: self.belief.q, ..State::default() };
+        let state =
+            State { X_NB: self.memory.belief.X_NB, q: self.memory.belief.q, ..State::default() };
         joints_for_tool(&self.robot, tool, &state, &X, axes, law, &self.setup.limits).err()
     }
 

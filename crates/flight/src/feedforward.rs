@@ -1,8 +1,11 @@
 //! The arm's reaction on the base, known before it is felt.
 
+use crate::answered_motion::on_base;
 use crate::law::Feedforward;
+use crate::posture::Posture;
 use wrasse_dynamics::{
-    BodyId, Generalized, PerBody, Robot, State, inverse_dynamics, kinematics, printed_reaction,
+    BodyId, Generalized, PerBody, PrintedReaction, Robot, State, inverse_dynamics, kinematics,
+    printed_reaction,
 };
 use wrasse_hardware::SetPoint;
 use wrasse_spatial::{Real, SpatialForce, SpatialVelocity, Vec3};
@@ -21,9 +24,30 @@ pub fn feedforward_torque<T: Real, const J: usize>(
     kind: Feedforward,
     joints: &[SetPoint<T>; J],
 ) -> Vec3<T> {
-    if kind == Feedforward::None {
-        return Vec3::zero();
+    match kind {
+        Feedforward::Exact => exact(robot, joints),
+        Feedforward::AsPrinted => printed(robot, joints, |r| r.N_r_arm_cm),
+        Feedforward::AsPrintedSystemCm => printed(robot, joints, |r| r.N_r_system_cm),
+        Feedforward::None => Vec3::zero(),
     }
+}
+
+#[inline(always)]
+fn exact<T: Real, const J: usize>(robot: &Robot<T, J>, joints: &[SetPoint<T>; J]) -> Vec3<T> {
+    let posture = Posture::new(robot, &joints.map(|s| s.position));
+    let (qdot, qddot) = (joints.map(|s| s.rate), joints.map(|s| s.acceleration));
+    let matter = posture.matter(robot);
+    let at_rest = SpatialVelocity::zero();
+    let bolted = on_base(robot, &at_rest, &posture.forces(robot, &matter, &at_rest, &qdot, &qddot));
+    let recoil = bolted.force * (-T::one() / matter.whole.mass);
+    bolted.torque + matter.whole.first_moment.cross(recoil)
+}
+
+fn printed<T: Real, const J: usize>(
+    robot: &Robot<T, J>,
+    joints: &[SetPoint<T>; J],
+    pick: fn(&PrintedReaction<T>) -> Vec3<T>,
+) -> Vec3<T> {
     // The base stands in the origin of its own axes, so that all comes out in base axes.
     let state =
         State { q: joints.map(|s| s.position), v: joints.map(|s| s.rate), ..State::default() };
@@ -31,17 +55,7 @@ pub fn feedforward_torque<T: Real, const J: usize>(
     let mut nudot =
         Generalized { base: SpatialVelocity::zero(), joints: joints.map(|s| s.acceleration) };
     let bolted = inverse_dynamics(&k, &nudot, &PerBody::filled(SpatialForce::zero())).force.base;
-    let (mass, p_BScm_B) = k.centre_of_mass();
-    let recoil = bolted.force * (-T::one() / mass);
-    nudot.base.linear = recoil;
-    let printed = |pick: fn(&wrasse_dynamics::PrintedReaction<T>) -> Vec3<T>| {
-        let roots = robot.joints().filter(|&j| robot.joint(j).parent == BodyId::Base);
-        roots.fold(Vec3::zero(), |sum, root| sum + pick(&printed_reaction(&k, &nudot, root)))
-    };
-    match kind {
-        Feedforward::Exact => bolted.torque + (p_BScm_B * mass).cross(recoil),
-        Feedforward::AsPrinted => printed(|r| r.N_r_arm_cm),
-        Feedforward::AsPrintedSystemCm => printed(|r| r.N_r_system_cm),
-        Feedforward::None => Vec3::zero(),
-    }
+    nudot.base.linear = bolted.force * (-T::one() / k.centre_of_mass().0);
+    let roots = robot.joints().filter(|&j| robot.joint(j).parent == BodyId::Base);
+    roots.fold(Vec3::zero(), |sum, root| sum + pick(&printed_reaction(&k, &nudot, root)))
 }

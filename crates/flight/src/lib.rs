@@ -6,38 +6,48 @@ pub mod inverse_kinematics;
 pub mod steering;
 pub mod trajectory;
 
+mod answered_motion;
 mod attitude_control;
 mod attitude_estimator;
+mod base_answer;
 mod base_control;
 mod computed_torque;
 mod computer;
 mod computer_answers;
+mod control_period;
+mod damped_inverse;
 mod door;
 mod error_covariance;
 mod feedforward;
 mod joint_estimator;
 mod law;
+mod mobility;
 mod navigation;
+mod period_command;
 mod phase;
+mod posture;
 mod resolved_motion;
 mod sequence;
 mod tool_pose;
 mod tool_wrench;
 
+pub use answered_motion::answered_motion;
 pub use attitude_control::attitude_torque;
 pub use attitude_estimator::{AttitudeEstimate, AttitudeEstimator, EstimatorSetup, TRACKER_MEMORY};
 pub use base_control::{BaseControlSetup, PositionHold};
 pub use computed_torque::computed_torque;
 pub use computer::{FlightComputer, Setup};
+pub use control_period::{Asked, PeriodMemory, control_period};
 pub use door::{Axes, BaseReading, Command, Grip, JointReading, Sensed};
 pub use feedforward::feedforward_torque;
 pub use joint_estimator::JointEstimator;
 pub use law::{ArmLaw, Feedforward, Measurement, Task, Tuning};
 pub use navigation::{Navigation, NavigationSetup};
+pub use period_command::Told;
 pub use phase::{Held, JointTarget, JointTiming, PHASES, Phase, Target, Timing};
 pub use resolved_motion::{
-    Assignment, Belief, JointUse, Resolved, ResolvedMotion, WantedMotion, answered_motion,
-    joint_rates, resolved_motion, task_jacobian,
+    Assignment, Belief, JointUse, Resolved, ResolvedMotion, WantedMotion, joint_rates,
+    resolved_motion, task_jacobian,
 };
 pub use sequence::{BadPhase, LONGEST, NoWay};
 pub use tool_pose::{Unreachable, joints_for_tool};

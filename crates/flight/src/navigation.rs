@@ -4,7 +4,7 @@ use crate::attitude_estimator::{AttitudeEstimate, AttitudeEstimator, EstimatorSe
 use crate::door::{BaseReading, JointReading, Sensed};
 use crate::joint_estimator::JointEstimator;
 use wrasse_dynamics::State;
-use wrasse_spatial::{Pose, Quat, Scalar, SpatialVelocity};
+use wrasse_spatial::{Pose, Quat, Real, Scalar, SpatialVelocity};
 
 /// What the navigation must know of its sensors.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,7 +17,7 @@ pub struct NavigationSetup<T> {
     pub quat_NB: Quat<T>,
 }
 
-impl<T: Scalar> NavigationSetup<T> {
+impl<T: Real> NavigationSetup<T> {
     /// Perfect sensors: nothing to estimate.
     pub fn perfect() -> Self {
         Self { attitude: None, joint_bandwidth: T::zero(), quat_NB: Quat::identity() }

@@ -2,14 +2,14 @@
 //! believes the base to answer.
 
 use crate::Axes;
+use crate::base_answer::{BaseAnswer, Carried, base_answer, base_answer_rate};
+use crate::damped_inverse::DampedInverse;
 use crate::law::{ArmLaw, Task};
-use wrasse_dynamics::{
-    Cholesky, Frame, MassMatrix, Robot, State, attitude_held_jacobian, base_twist,
-    generalized_jacobian, jacobian, kinematics, mass_matrix, velocity_from_momentum,
-};
+use crate::posture::{Posture, of_body};
+use core::array;
+use wrasse_dynamics::{BodyId, Frame, Robot};
 use wrasse_spatial::{
-    Dual, Mat3, Pose, Quat, Real, Scalar, SpatialAcceleration, SpatialMomentum, SpatialVelocity,
-    Vec3, turned_by,
+    Mat3, Pose, Real, SpatialAcceleration, SpatialMomentum, SpatialVelocity, Vec3,
 };
 
 /// What is asked of the arm: which point, in which axes, how much of its motion, by which law.
@@ -41,164 +41,6 @@ pub struct JointUse<T, const J: usize> {
     pub rate_limit: [T; J],
 }
 
-/// Where the vehicle is believed to be, and the momentum it is believed to have.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Belief<T, const J: usize> {
-    /// Pose of the base, `X_NB`.
-    pub X_NB: Pose<T>,
-    /// Joint positions (rad or m).
-    pub q: [T; J],
-    /// Total momentum about the system's centre of mass, inertial axes (N·m·s, N·s).
-    pub h_Scm_N: SpatialMomentum<T>,
-}
-
-/// Rates, and how the base is believed to answer.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Resolved<T, const J: usize> {
-    /// Joint rates (rad/s or m/s).
-    pub qdot: [T; J],
-    /// Base twist `V_NB_B` (rad/s, m/s).
-    pub V_NB_B: SpatialVelocity<T>,
-}
-
-/// The law's Jacobian and the twist of the tool that no joint causes.
-fn law_jacobian<T: Real, const J: usize>(
-    robot: &Robot<T, J>,
-    to: &Assignment<T>,
-    belief: &Belief<T, J>,
-) -> ([SpatialVelocity<T>; J], SpatialVelocity<T>, MassMatrix<T, J>) {
-    let still = State { X_NB: belief.X_NB, q: belief.q, ..State::default() };
-    let k = kinematics(robot, &still);
-    let (J_frame, M) = (jacobian(&k, &to.tool), mass_matrix(&k));
-    let R_NB = belief.X_NB.rotation;
-    let (columns, drift) = match (to.axes, to.law) {
-        // What happens relative to the base does not depend on how the base moves.
-        (Axes::Base, _) => (
-            J_frame.joints.map(|c| {
-                SpatialVelocity::new(R_NB.transpose_mul(c.angular), R_NB.transpose_mul(c.linear))
-            }),
-            SpatialVelocity::zero(),
-        ),
-        (Axes::Inertial, ArmLaw::Terrestrial) => (J_frame.joints, SpatialVelocity::zero()),
-        (Axes::Inertial, ArmLaw::AttitudeHeld) => (
-            attitude_held_jacobian(&J_frame, &M, &R_NB),
-            SpatialVelocity::new(Vec3::zero(), belief.h_Scm_N.force * (T::one() / M.M_bb.mass)),
-        ),
-        (Axes::Inertial, ArmLaw::FreeFloating) => (
-            generalized_jacobian(&J_frame, &M),
-            velocity_from_momentum(&J_frame, &M, &in_base_axes(&belief.h_Scm_N, &R_NB)),
-        ),
-    };
-    (columns, drift, M)
-}
-
-fn in_base_axes<T: Real>(h_N: &SpatialMomentum<T>, R_NB: &Mat3<T>) -> SpatialMomentum<T> {
-    SpatialMomentum::new(R_NB.transpose_mul(h_N.torque), R_NB.transpose_mul(h_N.force))
-}
-
-/// The law's Jacobian at a belief: columns are the tool's twist per joint rate.
-pub fn task_jacobian<T: Real, const J: usize>(
-    robot: &Robot<T, J>,
-    to: &Assignment<T>,
-    belief: &Belief<T, J>,
-) -> [SpatialVelocity<T>; J] {
-    let (columns, _, _) = law_jacobian(robot, to, belief);
-    columns.map(|c| masked(&c, to.task))
-}
-
-fn masked<T: Real>(V: &SpatialVelocity<T>, task: Task) -> SpatialVelocity<T> {
-    match task {
-        Task::Pose => *V,
-        Task::Position => SpatialVelocity::new(Vec3::zero(), V.linear),
-    }
-}
-
-/// Joint rates of least norm that give the tool the twist `V_NE`, plus the part of the drift towards
-/// the preferred posture that does not move it.
-///
-/// Where the Jacobian comes close to singular its inverse is damped: the rates stay bounded and the
-/// tool falls behind, which the planning reports. No iteration depends on the data.
-///
-/// # Source
-/// [`UmetaniYoshida1989`](wrasse_spatial::references::UmetaniYoshida1989); damping after
-/// [`NakamuraHanafusa1986`](wrasse_spatial::references::NakamuraHanafusa1986), with the smallest
-/// Cholesky pivot in place of the manipulability.
-pub fn joint_rates<T: Real, const J: usize>(
-    robot: &Robot<T, J>,
-    to: &Assignment<T>,
-    belief: &Belief<T, J>,
-    V_NE: &SpatialVelocity<T>,
-    joints: &JointUse<T, J>,
-) -> Resolved<T, J> {
-    let (columns, drift, M) = law_jacobian(robot, to, belief);
-    let rows = columns.map(|c| masked(&c, to.task).to_array());
-    let mut wanted = masked(&(*V_NE - drift), to.task).to_array();
-    let mut qdot = [T::zero(); J];
-    for j in robot.joints() {
-        qdot[j] = (joints.posture[j] - belief.q[j]) * joints.gain;
-    }
-    for j in robot.joints() {
-        for r in 0..6 {
-            wanted[r] -= rows[j][r] * qdot[j];
-        }
-    }
-    let y = damped_inverse(robot, &rows, to).solve(&wanted);
-    for j in robot.joints() {
-        for r in 0..6 {
-            qdot[j] += rows[j][r] * y[r];
-        }
-    }
-    let mut share = T::one();
-    for j in robot.joints() {
-        share = share.min(joints.rate_limit[j] / joints.rate_limit[j].max(qdot[j].abs()));
-    }
-    let qdot = qdot.map(|rate| rate * share);
-    Resolved { qdot, V_NB_B: believed_base_twist(to.law, belief, &M, &qdot) }
-}
-
-/// `(J Jᵀ + λ² 1)⁻¹`, with λ zero while the smallest pivot stays above the floor.
-fn damped_inverse<T: Real, const J: usize>(
-    robot: &Robot<T, J>,
-    rows: &[[T; 6]; J],
-    to: &Assignment<T>,
-) -> Cholesky<T, 6> {
-    let mut JJt = [[T::zero(); 6]; 6];
-    for j in robot.joints() {
-        for r in 0..6 {
-            for c in 0..=r {
-                JJt[r][c] += rows[j][r] * rows[j][c];
-            }
-        }
-    }
-    if to.task == Task::Position {
-        // Rows that are not asked for: any pivot will do.
-        (0..3).for_each(|r| JJt[r][r] = T::one());
-    }
-    let floor = to.damped_below * to.damped_below;
-    let lack = (T::one() - Cholesky::new(&JJt, 6).smallest_pivot() / floor).max(T::zero());
-    let damping = floor * lack.min(T::one()) * lack.min(T::one());
-    (0..6).for_each(|r| JJt[r][r] += damping);
-    Cholesky::new(&JJt, 6)
-}
-
-/// How a law believes the base to answer joint rates.
-fn believed_base_twist<T: Real, const J: usize>(
-    law: ArmLaw,
-    belief: &Belief<T, J>,
-    M: &MassMatrix<T, J>,
-    qdot: &[T; J],
-) -> SpatialVelocity<T> {
-    let h_Scm_B = in_base_axes(&belief.h_Scm_N, &belief.X_NB.rotation);
-    match law {
-        ArmLaw::Terrestrial => SpatialVelocity::zero(),
-        ArmLaw::AttitudeHeld => {
-            let push = h_Scm_B.force - M.momentum_of_rates(qdot).force;
-            SpatialVelocity::new(Vec3::zero(), push * (T::one() / M.M_bb.mass))
-        }
-        ArmLaw::FreeFloating => base_twist(M, &h_Scm_B, qdot),
-    }
-}
-
 /// Rates and accelerations of joints and base.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ResolvedMotion<T, const J: usize> {
@@ -219,110 +61,390 @@ pub struct WantedMotion<T> {
     pub Vdot_NE: SpatialVelocity<T>,
 }
 
+/// Where the vehicle is believed to be, and the momentum it is believed to have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Belief<T, const J: usize> {
+    /// Pose of the base, `X_NB`.
+    pub X_NB: Pose<T>,
+    /// Joint positions (rad or m).
+    pub q: [T; J],
+    /// Total momentum about the system's centre of mass, inertial axes (N·m·s, N·s).
+    pub h_Scm_N: SpatialMomentum<T>,
+}
+
+/// Rates, and how the base is believed to answer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Resolved<T, const J: usize> {
+    /// Joint rates (rad/s or m/s).
+    pub qdot: [T; J],
+    /// Base twist `V_NB_B` (rad/s, m/s).
+    pub V_NB_B: SpatialVelocity<T>,
+}
+
+impl<T: Real, const J: usize> Belief<T, J> {
+    /// The momentum in base axes.
+    #[inline(always)]
+    pub(crate) fn h_Scm_B(&self) -> SpatialMomentum<T> {
+        let (R_NB, h) = (&self.X_NB.rotation, &self.h_Scm_N);
+        SpatialMomentum::new(R_NB.transpose_mul(h.torque), R_NB.transpose_mul(h.force))
+    }
+}
+
+/// The tool, and the law's Jacobian in one posture; about the base's origin, in base axes, where the
+/// attitude of the base changes nothing.
+struct LawJacobian<T, const J: usize> {
+    p_BE: Vec3<T>,
+    /// Whether a joint carries the tool.
+    carries: [bool; J],
+    /// Twist of the tool's body for unit rate of each joint.
+    columns: [SpatialVelocity<T>; J],
+    /// Twist that no joint causes.
+    drift: SpatialVelocity<T>,
+    h_Scm_B: SpatialMomentum<T>,
+    answer: BaseAnswer<T, J>,
+    carried: Carried<T, J>,
+}
+
+impl<T: Real, const J: usize> LawJacobian<T, J> {
+    #[inline(always)]
+    fn new(
+        robot: &Robot<T, J>,
+        to: &Assignment<T>,
+        posture: &Posture<T, J>,
+        h_Scm_B: SpatialMomentum<T>,
+    ) -> Self {
+        let (answer, carried) = base_answer(to.law, robot, posture, &h_Scm_B);
+        let p_BE = posture.pose(&to.tool).translation;
+        let (columns, drift) = ([SpatialVelocity::zero(); J], SpatialVelocity::zero());
+        let carries = carrying(robot, to.tool.body);
+        let mut law = Self { p_BE, carries, columns, drift, h_Scm_B, answer, carried };
+        law.columns = law.total(robot, to, &posture.S, &law.answer.per_rate);
+        if to.axes == Axes::Inertial {
+            law.drift = law.answer.drift;
+        }
+        law
+    }
+
+    /// What the joints themselves do to the tool, and what the base does about it. What happens
+    /// relative to the base does not depend on how the base moves.
+    #[inline(always)]
+    fn total(
+        &self,
+        robot: &Robot<T, J>,
+        to: &Assignment<T>,
+        own: &[SpatialVelocity<T>; J],
+        answer: &[SpatialVelocity<T>; J],
+    ) -> [SpatialVelocity<T>; J] {
+        let mut columns = [SpatialVelocity::zero(); J];
+        for j in robot.joints() {
+            if self.carries[j] {
+                columns[j] = own[j];
+            }
+            if to.axes == Axes::Inertial {
+                columns[j] += answer[j];
+            }
+        }
+        columns
+    }
+
+    /// The six rows of the task at the tool.
+    #[inline(always)]
+    fn rows(&self, task: Task, V: &SpatialVelocity<T>) -> [T; 6] {
+        masked(&V.shifted_by(self.p_BE), task).to_array()
+    }
+}
+
+/// Joints between the base and a body.
+#[inline(always)]
+fn carrying<T: Real, const J: usize>(robot: &Robot<T, J>, body: BodyId) -> [bool; J] {
+    let (mut carries, mut at) = ([false; J], body);
+    for j in robot.joints().rev() {
+        if at == BodyId::Link(j) {
+            carries[j] = true;
+            at = robot.joint(j).parent;
+        }
+    }
+    carries
+}
+
+fn masked<T: Real>(V: &SpatialVelocity<T>, task: Task) -> SpatialVelocity<T> {
+    match task {
+        Task::Pose => *V,
+        Task::Position => SpatialVelocity::new(Vec3::zero(), V.linear),
+    }
+}
+
+/// The law's Jacobian at a belief: columns are the tool's twist per joint rate, in the axes of the
+/// assignment.
+pub fn task_jacobian<T: Real, const J: usize>(
+    robot: &Robot<T, J>,
+    to: &Assignment<T>,
+    belief: &Belief<T, J>,
+) -> [SpatialVelocity<T>; J] {
+    let posture = Posture::new(robot, &belief.q);
+    let law = LawJacobian::new(robot, to, &posture, belief.h_Scm_B());
+    let R = match to.axes {
+        Axes::Inertial => belief.X_NB.rotation,
+        Axes::Base => Mat3::identity(),
+    };
+    law.columns.map(|c| {
+        let V = masked(&c.shifted_by(law.p_BE), to.task);
+        SpatialVelocity::new(R * V.angular, R * V.linear)
+    })
+}
+
+/// Joint rates of least norm that give the tool the twist `V_NE`, plus the part of the drift towards
+/// the preferred posture that does not move it.
+///
+/// Where the Jacobian comes close to singular its inverse is damped: the rates stay bounded and the
+/// tool falls behind, which the planning reports. No iteration depends on the data, and the damping
+/// does not depend on how the base is turned.
+///
+/// # Source
+/// [`UmetaniYoshida1989`](wrasse_spatial::references::UmetaniYoshida1989); damping after
+/// [`NakamuraHanafusa1986`](wrasse_spatial::references::NakamuraHanafusa1986), with the smallest
+/// pivot in place of the manipulability.
+pub fn joint_rates<T: Real, const J: usize>(
+    robot: &Robot<T, J>,
+    to: &Assignment<T>,
+    belief: &Belief<T, J>,
+    V_NE: &SpatialVelocity<T>,
+    joints: &JointUse<T, J>,
+) -> Resolved<T, J> {
+    let posture = Posture::new(robot, &belief.q);
+    let law = LawJacobian::new(robot, to, &posture, belief.h_Scm_B());
+    Solved::new(robot, to, belief, &law, V_NE, joints).rate
+}
+
+/// Joint rates, and what their derivatives need of the way they were found.
+struct Solved<T, const J: usize> {
+    rate: Resolved<T, J>,
+    /// Wanted twist of the tool, base axes.
+    V_NE_B: SpatialVelocity<T>,
+    /// Columns at the tool, six rows of the task.
+    rows: [[T; 6]; J],
+    inverse: DampedInverse<T>,
+    y: [T; 6],
+    /// Rates before all were slowed down, and the share of them that is left.
+    free: [T; J],
+    share: T,
+}
+
+impl<T: Real, const J: usize> Solved<T, J> {
+    #[inline(always)]
+    fn new(
+        robot: &Robot<T, J>,
+        to: &Assignment<T>,
+        belief: &Belief<T, J>,
+        law: &LawJacobian<T, J>,
+        V_NE: &SpatialVelocity<T>,
+        joints: &JointUse<T, J>,
+    ) -> Self {
+        let V_NE_B = in_base_axes(to, belief, V_NE);
+        let mut wanted =
+            subtract(&masked(&V_NE_B, to.task).to_array(), &law.rows(to.task, &law.drift));
+        let (mut rows, mut free) = ([[T::zero(); 6]; J], [T::zero(); J]);
+        let mut JJt = [[T::zero(); 6]; 6];
+        for j in robot.joints() {
+            let row = law.rows(to.task, &law.columns[j]);
+            free[j] = (joints.posture[j] - belief.q[j]) * joints.gain;
+            for r in 0..6 {
+                wanted[r] -= row[r] * free[j];
+                for c in 0..=r {
+                    JJt[r][c] += row[r] * row[c];
+                }
+            }
+            rows[j] = row;
+        }
+        if to.task == Task::Position {
+            // Rows that are not asked for: any pivot will do.
+            (0..3).for_each(|r| JJt[r][r] = T::one());
+        }
+        let inverse = DampedInverse::new(&JJt, to.damped_below);
+        let y = inverse.solve(&wanted);
+        let mut share = T::one();
+        for j in robot.joints() {
+            free[j] += dot(&rows[j], &y);
+            share = share.min(joints.rate_limit[j] / joints.rate_limit[j].max(free[j].abs()));
+        }
+        let qdot = free.map(|rate| rate * share);
+        let V_NB_B = law.answer.caused_by(robot, &qdot) + law.answer.drift;
+        Self { rate: Resolved { qdot, V_NB_B }, V_NE_B, rows, inverse, y, free, share }
+    }
+}
+
+/// A twist that is given in the axes of the assignment.
+#[inline(always)]
+fn in_base_axes<T: Real, const J: usize>(
+    to: &Assignment<T>,
+    belief: &Belief<T, J>,
+    V: &SpatialVelocity<T>,
+) -> SpatialVelocity<T> {
+    let R_NB = &belief.X_NB.rotation;
+    match to.axes {
+        Axes::Inertial => {
+            SpatialVelocity::new(R_NB.transpose_mul(V.angular), R_NB.transpose_mul(V.linear))
+        }
+        Axes::Base => *V,
+    }
+}
+
+#[inline(always)]
+fn subtract<T: Real>(a: &[T; 6], b: &[T; 6]) -> [T; 6] {
+    array::from_fn(|r| a[r] - b[r])
+}
+
+#[inline(always)]
+fn dot<T: Real>(a: &[T; 6], b: &[T; 6]) -> T {
+    (1..6).fold(a[0] * b[0], |sum, r| sum + a[r] * b[r])
+}
+
 /// Joint motion that gives the tool a wanted motion. Accelerations are the exact derivatives of the
-/// rates: the law is run once more over dual numbers.
+/// rates.
 pub fn resolved_motion<T: Real, const J: usize>(
     robot: &Robot<T, J>,
-    dual_robot: &Robot<Dual<T>, J>,
     to: &Assignment<T>,
     belief: &Belief<T, J>,
     wanted: &WantedMotion<T>,
     joints: &JointUse<T, J>,
 ) -> ResolvedMotion<T, J> {
-    let rate = joint_rates(robot, to, belief, &wanted.V_NE, joints);
-    let moving = in_motion(belief, &rate);
-    let V = dual_velocity(&wanted.V_NE, &wanted.Vdot_NE);
-    let constant = |x: T| Dual::new(x, T::zero());
-    let joints = JointUse {
-        gain: Dual::new(joints.gain, joints.gain_rate),
-        gain_rate: constant(joints.gain_rate),
-        posture: joints.posture.map(constant),
-        rate_limit: joints.rate_limit.map(constant),
-    };
-    let found = joint_rates(dual_robot, &over_duals(to), &moving, &V, &joints);
-    ResolvedMotion {
-        rate,
-        qddot: found.qdot.map(|x| x.derivative),
-        A_NB_B: derivative(&found.V_NB_B),
-    }
+    resolved_motion_in(robot, to, &Posture::new(robot, &belief.q), belief, wanted, joints)
 }
 
-/// The same for joint motion that is given: how the base is believed to answer it.
-pub fn answered_motion<T: Real, const J: usize>(
+/// The same in a posture that is at hand.
+///
+/// With `q̇ = q̇₀ + Jᵀ y`, `(J Jᵀ + λ²) y = w - J q̇₀` the derivatives are
+/// `q̈ = e + Jᵀ ẏ`, `(J Jᵀ + λ²) ẏ = ẇ - J̇ q̇ - J e - λ̇² y`, `e = q̈₀ + J̇ᵀ y`.
+#[inline(always)]
+pub(crate) fn resolved_motion_in<T: Real, const J: usize>(
     robot: &Robot<T, J>,
-    dual_robot: &Robot<Dual<T>, J>,
-    law: ArmLaw,
+    to: &Assignment<T>,
+    posture: &Posture<T, J>,
     belief: &Belief<T, J>,
-    qdot: &[T; J],
-    qddot: &[T; J],
+    wanted: &WantedMotion<T>,
+    joints: &JointUse<T, J>,
 ) -> ResolvedMotion<T, J> {
-    let rate = Resolved { qdot: *qdot, V_NB_B: answered_twist(robot, law, belief, qdot) };
-    let dual_rates = core::array::from_fn(|j| Dual::new(qdot[j], qddot[j]));
-    let V_NB_B = answered_twist(dual_robot, law, &in_motion(belief, &rate), &dual_rates);
-    ResolvedMotion { rate, qddot: *qddot, A_NB_B: derivative(&V_NB_B) }
+    let law = LawJacobian::new(robot, to, posture, belief.h_Scm_B());
+    let solved = Solved::new(robot, to, belief, &law, &wanted.V_NE, joints);
+    let rate = solved.rate;
+    let w_NB_B = rate.V_NB_B.angular;
+    let V = posture.twists(robot, &SpatialVelocity::zero(), &rate.qdot);
+    let changing = base_answer_rate(
+        to.law,
+        robot,
+        posture,
+        (&law.answer, &law.carried),
+        &V,
+        &law.h_Scm_B,
+        w_NB_B,
+    );
+    let rows = row_rates(robot, to, posture, &law, &changing, &V);
+    let mut Vdot = in_base_axes(to, belief, &wanted.Vdot_NE);
+    if to.axes == Axes::Inertial {
+        // Seen from a base that turns.
+        let V_NE = &solved.V_NE_B;
+        Vdot += SpatialVelocity::new(V_NE.angular.cross(w_NB_B), V_NE.linear.cross(w_NB_B));
+    }
+    let wanted = subtract(&masked(&Vdot, to.task).to_array(), &rows.drift);
+    let free = free_accelerations(robot, belief, &solved, &rows.columns, wanted, joints);
+    let share_rate = share_rate(robot, &solved, &free, joints);
+    let mut qddot = [T::zero(); J];
+    for j in robot.joints() {
+        qddot[j] = free[j] * solved.share + solved.free[j] * share_rate;
+    }
+    let A_NB_B = law.answer.caused_by(robot, &qddot)
+        + changing.caused_by(robot, &rate.qdot)
+        + changing.drift;
+    ResolvedMotion { rate, qddot, A_NB_B }
 }
 
-/// Base twist `V_NB_B` with which the base is believed to answer joint rates.
-pub(crate) fn answered_twist<T: Real, const J: usize>(
+/// Time derivatives of the rows of the Jacobian at the tool, in base axes.
+struct RowRates<T, const J: usize> {
+    columns: [[T; 6]; J],
+    drift: [T; 6],
+}
+
+#[inline(always)]
+fn row_rates<T: Real, const J: usize>(
     robot: &Robot<T, J>,
-    law: ArmLaw,
-    belief: &Belief<T, J>,
-    qdot: &[T; J],
-) -> SpatialVelocity<T> {
-    let still = State { X_NB: belief.X_NB, q: belief.q, ..State::default() };
-    believed_base_twist(law, belief, &mass_matrix(&kinematics(robot, &still)), qdot)
-}
-
-/// A belief that moves at the given rates.
-fn in_motion<T: Real, const J: usize>(
-    belief: &Belief<T, J>,
-    rate: &Resolved<T, J>,
-) -> Belief<Dual<T>, J> {
-    let (R, p) = (belief.X_NB.rotation, belief.X_NB.translation);
-    let (Rdot, pdot) = (R * rate.V_NB_B.angular.skew(), R * rate.V_NB_B.linear);
-    let rotation = Mat3 { rows: core::array::from_fn(|i| dual_vector(R.rows[i], Rdot.rows[i])) };
-    let h = &belief.h_Scm_N;
-    let constant = |v: Vec3<T>| dual_vector(v, Vec3::zero());
-    Belief {
-        X_NB: Pose::new(rotation, dual_vector(p, pdot)),
-        q: core::array::from_fn(|j| Dual::new(belief.q[j], rate.qdot[j])),
-        h_Scm_N: SpatialMomentum::new(constant(h.torque), constant(h.force)),
+    to: &Assignment<T>,
+    posture: &Posture<T, J>,
+    law: &LawJacobian<T, J>,
+    changing: &BaseAnswer<T, J>,
+    V: &[SpatialVelocity<T>; J],
+) -> RowRates<T, J> {
+    let v_BE = of_body(to.tool.body, &SpatialVelocity::zero(), V).shifted_by(law.p_BE).linear;
+    // The tool moves on while the twist is carried to it.
+    let row_rate = |V: &SpatialVelocity<T>, Vdot: &SpatialVelocity<T>| {
+        let moved = SpatialVelocity::new(Vec3::zero(), V.angular.cross(v_BE));
+        masked(&(Vdot.shifted_by(law.p_BE) + moved), to.task).to_array()
+    };
+    let mut own = [SpatialVelocity::zero(); J];
+    for j in robot.joints() {
+        own[j] = V[j].cross(&posture.S[j]);
     }
-}
-
-fn dual_vector<T: Real>(v: Vec3<T>, vdot: Vec3<T>) -> Vec3<Dual<T>> {
-    Vec3 { x: Dual::new(v.x, vdot.x), y: Dual::new(v.y, vdot.y), z: Dual::new(v.z, vdot.z) }
-}
-
-fn dual_velocity<T: Real>(
-    V: &SpatialVelocity<T>,
-    Vdot: &SpatialVelocity<T>,
-) -> SpatialVelocity<Dual<T>> {
-    SpatialVelocity::new(dual_vector(V.angular, Vdot.angular), dual_vector(V.linear, Vdot.linear))
-}
-
-fn derivative<T: Real>(V: &SpatialVelocity<Dual<T>>) -> SpatialAcceleration<T> {
-    SpatialAcceleration::new(V.angular.map(|x| x.derivative), V.linear.map(|x| x.derivative))
-}
-
-fn over_duals<T: Real>(to: &Assignment<T>) -> Assignment<Dual<T>> {
-    let constant = |v: Vec3<T>| dual_vector(v, Vec3::zero());
-    let X = &to.tool.X_BF;
-    let rotation = Mat3 { rows: X.rotation.rows.map(constant) };
-    Assignment {
-        tool: Frame { body: to.tool.body, X_BF: Pose::new(rotation, constant(X.translation)) },
-        axes: to.axes,
-        task: to.task,
-        law: to.law,
-        damped_below: Dual::new(to.damped_below, T::zero()),
+    let rates = law.total(robot, to, &own, &changing.per_rate);
+    let mut columns = [[T::zero(); 6]; J];
+    for j in robot.joints() {
+        columns[j] = row_rate(&law.columns[j], &rates[j]);
     }
+    let drift = match to.axes {
+        Axes::Inertial => row_rate(&law.drift, &changing.drift),
+        Axes::Base => [T::zero(); 6],
+    };
+    RowRates { columns, drift }
 }
 
-/// A pose after a period of motion with a mean twist.
-pub(crate) fn moved_on<T: Scalar>(X_NB: &Pose<T>, mean: &SpatialVelocity<T>, period: T) -> Pose<T> {
-    let quat = turned_by(Quat::from_matrix(&X_NB.rotation), mean.angular * period);
-    // The translation is in axes that turn: half the turn is felt on average.
-    let half = Quat::exp(mean.angular * (period * T::from_f64(0.5))).to_matrix();
-    let way = X_NB.rotation * (half * mean.linear) * period;
-    Pose::from_quat(quat, X_NB.translation + way)
+/// Derivatives of the rates before all are slowed down.
+#[inline(always)]
+fn free_accelerations<T: Real, const J: usize>(
+    robot: &Robot<T, J>,
+    belief: &Belief<T, J>,
+    solved: &Solved<T, J>,
+    row_rates: &[[T; 6]; J],
+    wanted: [T; 6],
+    joints: &JointUse<T, J>,
+) -> [T; J] {
+    let mut rest = wanted;
+    let damping_rate =
+        solved.inverse.damping_rate(robot.joints().map(|j| (&solved.rows[j], &row_rates[j])));
+    for r in 0..6 {
+        rest[r] -= damping_rate * solved.y[r];
+    }
+    let mut qddot = [T::zero(); J];
+    for j in robot.joints() {
+        qddot[j] = (joints.posture[j] - belief.q[j]) * joints.gain_rate
+            - solved.rate.qdot[j] * joints.gain
+            + dot(&row_rates[j], &solved.y);
+        for r in 0..6 {
+            rest[r] -= row_rates[j][r] * solved.free[j] + solved.rows[j][r] * qddot[j];
+        }
+    }
+    let ydot = solved.inverse.solve(&rest);
+    for j in robot.joints() {
+        qddot[j] += dot(&solved.rows[j], &ydot);
+    }
+    qddot
+}
+
+/// Derivative of the share of their rates that the joints are slowed down to.
+#[inline(always)]
+fn share_rate<T: Real, const J: usize>(
+    robot: &Robot<T, J>,
+    solved: &Solved<T, J>,
+    free_accelerations: &[T; J],
+    joints: &JointUse<T, J>,
+) -> T {
+    let (mut share, mut rate) = (T::one(), T::zero());
+    for j in robot.joints() {
+        let (limit, speed) = (joints.rate_limit[j], solved.free[j].abs());
+        let backwards = solved.free[j].lt(T::zero());
+        let gain = T::select(backwards, -free_accelerations[j], free_accelerations[j]);
+        let largest = limit.max(speed);
+        let own = limit / largest;
+        let own_rate = T::select(limit.lt(speed), -own * gain / largest, T::zero());
+        rate = T::select(own.lt(share), own_rate, rate);
+        share = share.min(own);
+    }
+    rate
 }

@@ -397,6 +397,7 @@ fn the_torques_carry_the_arm_along_the_set_points() {
 }
 
 /// Fed forward by the joints, and back by the attitude sensed, with the inertia of the locked system.
+/// Two ways to add up that inertia: measured 7e-15 N·m of 78.
 #[test]
 fn the_attitude_torque_is_the_one_fed_forward_and_the_one_fed_back() {
     let setup = setup(ArmLaw::AttitudeHeld, Measurement::None);
@@ -409,6 +410,7 @@ fn the_attitude_torque_is_the_one_fed_forward_and_the_one_fed_back() {
     let w_NB_B = state.V_NB_B.angular;
     // The joints stand still, so that nothing is fed forward.
     let back = attitude_torque(&setup.tuning, &I_Scm_B, &quat_NB, w_NB_B, &setup.base.quat_ND);
-    assert_eq!(command.attitude_torque_B, back);
+    let off = (command.attitude_torque_B - back).norm();
+    assert!(off < 1e-13, "{off:e}");
     assert!(back.norm() > 1.0, "{back:?}");
 }

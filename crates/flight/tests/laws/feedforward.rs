@@ -171,7 +171,7 @@ fn shove(mass: f64) -> (Robot<f64, 7>, [SetPoint<f64>; 7]) {
     };
     let belief = Belief { X_NB: Pose::identity(), q, h_Scm_N: SpatialMomentum::zero() };
     let joints = JointUse { gain: 0.0, gain_rate: 0.0, posture: q, rate_limit: [1e3; 7] };
-    let motion = resolved_motion(&robot, &robot.cast(), &to, &belief, &wanted, &joints);
+    let motion = resolved_motion(&robot, &to, &belief, &wanted, &joints);
     (robot, set_points(&q, &motion.rate.qdot, &motion.qddot))
 }
 

@@ -9,11 +9,16 @@ mod arms;
 #[path = "../../../dynamics/tests/random_robot/mod.rs"]
 #[allow(dead_code, reason = "the dynamics asks more of the same trees")]
 mod random_robot;
+#[path = "../spanning_states/mod.rs"]
+#[allow(dead_code, reason = "the example asks more of the same states")]
+mod spanning_states;
 
 mod attitude_control;
 mod computed_torque;
 mod computer;
 mod computer_outcomes;
+mod control_period;
+mod dual_route;
 mod feedforward;
 mod flights;
 mod postures;

@@ -73,7 +73,7 @@ impl Case {
     fn derivative_error(&self, joints: &JointUse<f64, J>, Vdot_NE: SpatialVelocity<f64>) -> f64 {
         let wanted = WantedMotion { V_NE: self.V_NE, Vdot_NE };
         let robot = &self.arm.robot;
-        let motion = resolved_motion(robot, &robot.cast(), &self.to, &self.belief, &wanted, joints);
+        let motion = resolved_motion(robot, &self.to, &self.belief, &wanted, joints);
         let h = 1e-6;
         let [before, after] = [-h, h].map(|h| self.later(h, &motion, &wanted).rates(joints));
         difference_error(&motion, &before, &after, h)
@@ -141,7 +141,7 @@ fn accelerations_know_of_a_gain_that_changes() {
             |gain, gain_rate| JointUse { gain, gain_rate, posture: [0.4; J], ..free_use() };
         let wanted = WantedMotion { V_NE: case.V_NE, Vdot_NE: SpatialVelocity::zero() };
         let motion = |joints: &JointUse<f64, J>| {
-            resolved_motion(robot, &robot.cast(), &case.to, &case.belief, &wanted, joints)
+            resolved_motion(robot, &case.to, &case.belief, &wanted, joints)
         };
         // The rates are linear in the gain, so that its part of the acceleration is a difference.
         let (without, with) = (motion(&with_gain(0.3, 0.0)), motion(&with_gain(0.3, 0.7)));
@@ -177,7 +177,7 @@ fn the_believed_answer_to_given_joint_motion_keeps_the_promise_and_is_differenti
         let (qdot, qddot): ([f64; J], [f64; J]) = (some(), some());
         let robot = &case.arm.robot;
         let answer = |belief: &Belief<f64, J>, qdot: &[f64; J]| {
-            answered_motion(robot, &robot.cast(), case.to.law, belief, qdot, &qddot)
+            answered_motion(robot, case.to.law, belief, qdot, &qddot)
         };
         let motion = answer(&case.belief, &qdot);
         assert_eq!((motion.rate.qdot, motion.qddot), (qdot, qddot));

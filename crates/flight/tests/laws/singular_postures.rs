@@ -71,7 +71,7 @@ fn accelerations_stay_finite_however_singular_the_posture() {
         let robot = &case.arm.robot;
         let wanted = WantedMotion { V_NE: case.V_NE, Vdot_NE: random.twist(0.1) };
         let (to, belief) = (&case.to, &case.belief);
-        let found = resolved_motion(robot, &robot.cast(), to, belief, &wanted, &free_use());
+        let found = resolved_motion(robot, to, belief, &wanted, &free_use());
         found.qddot.iter().chain(&found.A_NB_B.to_array()).for_each(|a| worst.see(a.abs()));
     }
     worst.is_below(5e5);

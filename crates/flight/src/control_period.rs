@@ -1,0 +1,398 @@
+//! One control period: a bounded piece of code that takes the same way whatever the numbers are.
+//!
+//! What decides (phases, planning, estimators, steering) stands outside; it says what is asked, and
+//! here it is turned into set-points and torques, for one vehicle or for many side by side.
+
+use crate::answered_motion::{answered_motion_in, answered_twist, momentum_of_rates};
+use crate::computer::Setup;
+use crate::door::Axes;
+use crate::law::Measurement;
+use crate::period_command::{Told, told};
+use crate::posture::{Matter, Posture};
+use crate::resolved_motion::{
+    Assignment, Belief, JointUse, Resolved, ResolvedMotion, WantedMotion, resolved_motion_in,
+};
+use crate::trajectory::{JointSetPoint, ToolMotion};
+use wrasse_dynamics::{BodyId, Robot, State};
+use wrasse_hardware::SetPoint;
+use wrasse_spatial::{
+    Mat3, Pose, Quat, Real, SpatialForce, SpatialMomentum, SpatialVelocity, Vec3,
+};
+
+/// What is asked of the arm at the end of a period.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Asked<T, const J: usize> {
+    /// The tool is on a motion.
+    Tool {
+        /// Where it should be and how it should move.
+        reference: ToolMotion<T>,
+        /// The axes of the motion.
+        axes: Axes,
+        /// Drift towards the preferred posture (1/s).
+        gain: T,
+        /// How fast that changes (1/s²).
+        gain_rate: T,
+    },
+    /// The joints are on a way.
+    Joints(JointSetPoint<T, J>),
+    /// The joints move on at these rates and accelerations.
+    Rates {
+        /// Rates (rad/s or m/s).
+        qdot: [T; J],
+        /// Accelerations (rad/s² or m/s²).
+        qddot: [T; J],
+    },
+    /// The joints stand still where they were sent last.
+    Still,
+    /// Nothing is driven.
+    Coast,
+}
+
+/// What the control periods hand on, one to the next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PeriodMemory<T, const J: usize> {
+    /// Where the law believes the vehicle to be.
+    pub belief: Belief<T, J>,
+    /// How it believes it to move.
+    pub motion: ResolvedMotion<T, J>,
+    /// Where the tool should be.
+    pub reference: ToolMotion<T>,
+    /// The axes that the reference is in.
+    pub axes: Axes,
+    /// Mean joint acceleration that was asked for over the last period (rad/s² or m/s²).
+    pub acceleration: [T; J],
+    /// Set-points at the start of the coming period.
+    now: [SetPoint<T>; J],
+    /// Measured twist of the base less the one that the law believed in (rad/s, m/s).
+    surprise: SpatialVelocity<T>,
+    /// Whether the sensors were read once.
+    started: bool,
+    coasting: bool,
+}
+
+impl<T: Real, const J: usize> Default for PeriodMemory<T, J> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// One control period: from what is sensed and what is asked to what the actuators are told.
+///
+/// Neither branch nor iteration depends on a number: what it takes depends only on the robot's tree
+/// and on the laws that are chosen. `sensed` is the state as measured or estimated; of the setup the
+/// navigation and the steering are not read. A push at the tool, if it is felt, is at the tool's
+/// origin in its axes (N·m, N).
+pub fn control_period<T: Real, const J: usize>(
+    robot: &Robot<T, J>,
+    setup: &Setup<T, J>,
+    memory: &mut PeriodMemory<T, J>,
+    sensed: &State<T, J>,
+    asked: &Asked<T, J>,
+    tool_wrench_E: Option<&SpatialForce<T>>,
+) -> Told<T, J> {
+    memory.look(robot, setup, sensed);
+    memory.act(robot, setup, sensed, asked, tool_wrench_E)
+}
+
+impl<T: Real, const J: usize> PeriodMemory<T, J> {
+    /// Nothing is known yet: the first period takes all from what is sensed.
+    pub fn new() -> Self {
+        let rest = Resolved { qdot: [T::zero(); J], V_NB_B: SpatialVelocity::zero() };
+        Self {
+            belief: Belief {
+                X_NB: Pose::identity(),
+                q: [T::zero(); J],
+                h_Scm_N: SpatialMomentum::zero(),
+            },
+            motion: ResolvedMotion {
+                rate: rest,
+                qddot: [T::zero(); J],
+                A_NB_B: SpatialVelocity::zero(),
+            },
+            reference: at_rest(Pose::identity()),
+            axes: Axes::Inertial,
+            acceleration: [T::zero(); J],
+            now: [SetPoint::default(); J],
+            surprise: SpatialVelocity::zero(),
+            started: false,
+            coasting: false,
+        }
+    }
+
+    /// First half of a period: take from what is sensed what the laws may take.
+    pub fn look(&mut self, robot: &Robot<T, J>, setup: &Setup<T, J>, sensed: &State<T, J>) {
+        let measured = setup.measurement == Measurement::Base;
+        if measured || !self.started {
+            self.belief.X_NB = sensed.X_NB;
+            self.belief.h_Scm_N = momentum_of(robot, sensed);
+        }
+        if !self.started || self.coasting {
+            self.start_from(robot, setup, sensed);
+        }
+        if measured {
+            self.surprise = sensed.V_NB_B - self.motion.rate.V_NB_B;
+            self.motion.rate.V_NB_B = sensed.V_NB_B;
+        }
+    }
+
+    /// Begin where the joints are, with the base moving as the law says: at the start, and as long
+    /// as nothing drives them.
+    fn start_from(&mut self, robot: &Robot<T, J>, setup: &Setup<T, J>, sensed: &State<T, J>) {
+        self.started = true;
+        self.belief.q = sensed.q;
+        for j in robot.joints() {
+            self.now[j] = SetPoint { position: sensed.q[j], rate: sensed.v[j], ..self.now[j] };
+        }
+        let still = [T::zero(); J];
+        let posture = self.answer(robot, setup, &sensed.v, &still).posture;
+        self.rest_at(setup, &posture);
+    }
+
+    /// Second half: follow what is asked.
+    pub fn act(
+        &mut self,
+        robot: &Robot<T, J>,
+        setup: &Setup<T, J>,
+        sensed: &State<T, J>,
+        asked: &Asked<T, J>,
+        tool_wrench_E: Option<&SpatialForce<T>>,
+    ) -> Told<T, J> {
+        let period = setup.tuning.period;
+        let (from, began) = (self.belief, self.motion);
+        let quat_NB = Quat::from_matrix(&from.X_NB.rotation);
+        self.predict(robot, &quat_NB, period);
+        let ending = self.follow(robot, setup, asked, (&from, &began));
+        self.correct_base(&quat_NB, (&from, &began), period);
+        // The joints are not quite where they were when the base's answer was worked out.
+        let (law, h_B) = (setup.assignment.law, self.belief.h_Scm_B());
+        let whole = ending.matter.whole;
+        self.motion.rate.V_NB_B = answered_twist(law, &whole, &h_B, &ending.h_links);
+        let now = self.now;
+        for j in robot.joints() {
+            self.now[j] = SetPoint {
+                position: self.belief.q[j],
+                rate: self.motion.rate.qdot[j],
+                acceleration: self.motion.qddot[j],
+            };
+            self.acceleration[j] = (self.now[j].rate - now[j].rate) / period;
+        }
+        self.coasting = matches!(asked, Asked::Coast);
+        if self.coasting {
+            return Told::nothing(self.now, whole);
+        }
+        told(robot, setup, sensed, (&now, &self.now), whole, tool_wrench_E)
+    }
+
+    /// The vehicle as the law believes it to be a period (s) on, from its motion now alone.
+    pub(crate) fn predicted(&self, robot: &Robot<T, J>, period: T) -> Belief<T, J> {
+        let mut ahead = *self;
+        ahead.predict(robot, &Quat::from_matrix(&self.belief.X_NB.rotation), period);
+        ahead.belief
+    }
+
+    #[inline(always)]
+    fn predict(&mut self, robot: &Robot<T, J>, quat_NB: &Quat<T>, period: T) {
+        let half = T::from_f64(0.5) * period;
+        for j in robot.joints() {
+            let mean = self.motion.rate.qdot[j] + self.motion.qddot[j] * half;
+            self.belief.q[j] += mean * period;
+        }
+        let mean = self.motion.rate.V_NB_B + self.motion.A_NB_B * half;
+        self.belief.X_NB = moved_on(&self.belief.X_NB, quat_NB, &mean, period);
+    }
+
+    /// The joints' motion at the end of the period, and the posture it ends in.
+    #[inline(always)]
+    fn follow(
+        &mut self,
+        robot: &Robot<T, J>,
+        setup: &Setup<T, J>,
+        asked: &Asked<T, J>,
+        began: (&Belief<T, J>, &ResolvedMotion<T, J>),
+    ) -> Ending<T, J> {
+        let still = [T::zero(); J];
+        match asked {
+            Asked::Tool { reference, axes, gain, gain_rate } => {
+                (self.reference, self.axes) = (*reference, *axes);
+                let joints = JointUse { gain: *gain, gain_rate: *gain_rate, ..setup.joints };
+                self.follow_tool(robot, setup, &joints);
+                self.correct_joints(robot, began, setup.tuning.period);
+                Ending::new(robot, &self.belief.q, &self.motion.rate.qdot)
+            }
+            Asked::Joints(at) => {
+                self.belief.q = at.q;
+                self.answer_and_rest(robot, setup, &at.v, &at.vdot)
+            }
+            Asked::Rates { qdot, qddot } => self.answer_and_rest(robot, setup, qdot, qddot),
+            Asked::Still => {
+                self.belief.q = self.now.map(|s| s.position);
+                self.answer(robot, setup, &still, &still)
+            }
+            Asked::Coast => {
+                let rates = self.motion.rate.qdot;
+                self.answer(robot, setup, &rates, &still)
+            }
+        }
+    }
+
+    /// Joint motion that keeps the tool on its reference.
+    #[inline(always)]
+    fn follow_tool(&mut self, robot: &Robot<T, J>, setup: &Setup<T, J>, joints: &JointUse<T, J>) {
+        let posture = Posture::new(robot, &self.belief.q);
+        let X_BE = posture.pose(&setup.assignment.tool);
+        let X = match self.axes {
+            Axes::Inertial => self.belief.X_NB * X_BE,
+            Axes::Base => X_BE,
+        };
+        let R_error = self.reference.X_NE.rotation * X.rotation.transpose();
+        let error = SpatialVelocity::new(
+            Quat::from_matrix(&R_error).log(),
+            self.reference.X_NE.translation - X.translation,
+        );
+        let back = setup.tuning.tool_gain;
+        let surprise = self.surprise_at_tool(&X);
+        let wanted = WantedMotion {
+            V_NE: self.reference.V_NE_N + error * back,
+            // The error dies out as it is told to, but for what the law did not expect of the base.
+            Vdot_NE: self.reference.Vdot_NE_N - (error * back + surprise) * back,
+        };
+        let to = Assignment { axes: self.axes, ..setup.assignment };
+        self.motion = resolved_motion_in(robot, &to, &posture, &self.belief, &wanted, joints);
+    }
+
+    /// Twist of the tool, at `X`, that the law did not expect.
+    #[inline(always)]
+    fn surprise_at_tool(&self, X_NE: &Pose<T>) -> SpatialVelocity<T> {
+        let X_NB = &self.belief.X_NB;
+        match self.axes {
+            Axes::Base => SpatialVelocity::zero(),
+            Axes::Inertial => SpatialVelocity::new(
+                X_NB.rotation * self.surprise.angular,
+                X_NB.rotation * self.surprise.linear,
+            )
+            .shifted_by(X_NE.translation - X_NB.translation),
+        }
+    }
+
+    /// The joints once their motion at the end is known too: `Δ = h (v₀ + v₁)/2 + h² (a₀ - a₁)/12`, of
+    /// fourth order, where it is what joins the set-points without a wiggle.
+    #[inline(always)]
+    fn correct_joints(
+        &mut self,
+        robot: &Robot<T, J>,
+        (from, began): (&Belief<T, J>, &ResolvedMotion<T, J>),
+        period: T,
+    ) {
+        let (half, twelfth) = (T::from_f64(0.5), T::from_f64(1.0 / 12.0) * period);
+        let ended = &self.motion;
+        for j in robot.joints() {
+            let mean = (began.rate.qdot[j] + ended.rate.qdot[j]) * half
+                + (began.qddot[j] - ended.qddot[j]) * twelfth;
+            self.belief.q[j] = from.q[j] + mean * period;
+        }
+    }
+
+    /// The same for the base: of second order where it turns about a changing axis.
+    #[inline(always)]
+    fn correct_base(
+        &mut self,
+        quat_NB: &Quat<T>,
+        (from, began): (&Belief<T, J>, &ResolvedMotion<T, J>),
+        period: T,
+    ) {
+        let (half, twelfth) = (T::from_f64(0.5), T::from_f64(1.0 / 12.0) * period);
+        let ended = &self.motion;
+        let mean = (began.rate.V_NB_B + ended.rate.V_NB_B) * half
+            + (began.A_NB_B - ended.A_NB_B) * twelfth;
+        self.belief.X_NB = moved_on(&from.X_NB, quat_NB, &mean, period);
+    }
+
+    /// The base answers joint motion that is given.
+    #[inline(always)]
+    fn answer(
+        &mut self,
+        robot: &Robot<T, J>,
+        setup: &Setup<T, J>,
+        qdot: &[T; J],
+        qddot: &[T; J],
+    ) -> Ending<T, J> {
+        let ending = Ending::new(robot, &self.belief.q, qdot);
+        let at = (&ending.posture, &ending.matter, &ending.h_links);
+        let law = setup.assignment.law;
+        self.motion = answered_motion_in(robot, law, at, &self.belief, qdot, qddot);
+        ending
+    }
+
+    /// The same, and the tool's reference stays where that brings it.
+    #[inline(always)]
+    fn answer_and_rest(
+        &mut self,
+        robot: &Robot<T, J>,
+        setup: &Setup<T, J>,
+        qdot: &[T; J],
+        qddot: &[T; J],
+    ) -> Ending<T, J> {
+        let ending = self.answer(robot, setup, qdot, qddot);
+        self.axes = Axes::Inertial;
+        self.rest_at(setup, &ending.posture);
+        ending
+    }
+
+    #[inline(always)]
+    fn rest_at(&mut self, setup: &Setup<T, J>, posture: &Posture<T, J>) {
+        self.reference = at_rest(self.belief.X_NB * posture.pose(&setup.assignment.tool));
+    }
+}
+
+/// Where a period ends.
+struct Ending<T, const J: usize> {
+    posture: Posture<T, J>,
+    matter: Matter<T, J>,
+    /// Momentum of the links relative to the base, about its origin.
+    h_links: SpatialMomentum<T>,
+}
+
+impl<T: Real, const J: usize> Ending<T, J> {
+    #[inline(always)]
+    fn new(robot: &Robot<T, J>, q: &[T; J], qdot: &[T; J]) -> Self {
+        let posture = Posture::new(robot, q);
+        let matter = posture.matter(robot);
+        let h_links = momentum_of_rates(robot, &posture, &matter, qdot);
+        Self { posture, matter, h_links }
+    }
+}
+
+/// A tool that stays where it is.
+pub(crate) fn at_rest<T: Real>(X_NE: Pose<T>) -> ToolMotion<T> {
+    let zero = SpatialVelocity::zero();
+    ToolMotion { X_NE, V_NE_N: zero, Vdot_NE_N: zero }
+}
+
+/// Total momentum about the system's centre of mass, inertial axes.
+pub(crate) fn momentum_of<T: Real, const J: usize>(
+    robot: &Robot<T, J>,
+    state: &State<T, J>,
+) -> SpatialMomentum<T> {
+    let posture = Posture::new(robot, &state.q);
+    let matter = posture.matter(robot);
+    let h_links = matter.momentum(robot, &posture.twists(robot, &state.V_NB_B, &state.v));
+    let h_Bo = *robot.inertia(BodyId::Base) * state.V_NB_B + h_links;
+    let h = h_Bo.about(matter.whole.centre_of_mass());
+    let R_NB = &state.X_NB.rotation;
+    SpatialMomentum::new(*R_NB * h.torque, *R_NB * h.force)
+}
+
+/// A pose after a period of motion with a mean twist.
+#[inline(always)]
+fn moved_on<T: Real>(
+    X_NB: &Pose<T>,
+    quat_NB: &Quat<T>,
+    mean: &SpatialVelocity<T>,
+    period: T,
+) -> Pose<T> {
+    // The translation is in axes that turn: half the turn is felt on average.
+    let half = Quat::exp(mean.angular * (period * T::from_f64(0.5)));
+    let R_half: Mat3<T> = half.to_matrix();
+    let way: Vec3<T> = X_NB.rotation * (R_half * mean.linear) * period;
+    Pose::from_quat((*quat_NB * half * half).normalized(), X_NB.translation + way)
+}
