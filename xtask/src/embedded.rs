@@ -4,7 +4,7 @@ mod call_graph;
 mod comparison;
 mod elf;
 mod stack_bound;
-mod toolchain;
+pub(crate) mod toolchain;
 
 use crate::tidy::repository_root;
 use call_graph::CallGraph;
@@ -121,7 +121,7 @@ fn build(
     let mut command = toolchain.build(&format!("{}{more_flags}", processor.rust_flags));
     command.args(["-p", "wrasse-firmware", "--features", features]).current_dir(folder());
     toolchain::output_of(&mut command)?;
-    Ok(toolchain::target_folder().join(toolchain::TARGET).join("release").join("firmware"))
+    Ok(toolchain::target_folder().join(toolchain::TARGET).join("firmware").join("firmware"))
 }
 
 fn panic_is_undefined(complaint: &str) -> bool {

@@ -2,6 +2,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "chores talk to their caller")]
 
 mod chores;
+mod counts;
 mod embedded;
 mod tidy;
 
@@ -14,6 +15,10 @@ usage: cargo xtask CHORE
   test [ARGS]   all tests: unit, integration and documentation tests of the whole workspace;
                 ARGS go to `cargo test`
   tidy          rules of the repository that no compiler knows
+  counts [--require | --accept | --release]
+                instructions of the main kernels, counted by callgrind and held against
+                validation/instruction_counts.toml; --accept writes them there, --release also
+                makes them what the next release is compared with
   embedded [--require]
                 the control period on a flight processor's instruction set, in an emulator:
                 no panic, same bits as the host, instructions, stack; without the tools it is
@@ -29,6 +34,7 @@ fn main() -> ExitCode {
     let outcome = match chore {
         "test" => chores::test(rest),
         "tidy" => tidy::report(),
+        "counts" => counts::counts(rest),
         "embedded" => embedded::embedded(rest),
         "ci" => chores::ci(),
         _ => Err(USAGE.to_owned()),

@@ -17,15 +17,18 @@ pub const STATES: u32 = 1000;
 /// A vehicle and a law.
 #[derive(Debug)]
 pub struct Subject<T, const J: usize> {
-    robot: Robot<T, J>,
-    tool: Frame<T>,
+    /// The robot.
+    pub robot: Robot<T, J>,
+    /// Its tool, at the end of the first arm.
+    pub tool: Frame<T>,
     law: ArmLaw,
 }
 
 /// Where a period starts, and what it is asked for.
 #[derive(Debug)]
 pub struct Start<T, const J: usize> {
-    state: State<T, J>,
+    /// What the sensors say.
+    pub state: State<T, J>,
     wanted: SpatialVelocity<T>,
 }
 

@@ -10,9 +10,8 @@ pub(super) fn of_firmware(program: &Path) -> Result<String, String> {
     let graph = CallGraph::read(program)?;
     let mut bounds = Vec::new();
     for function in graph.functions.iter().filter(|f| is_period(&f.name)) {
-        let bound = deepest(function.start, &graph.nodes, &mut Vec::new()).map_err(|(what, at)| {
-            format!("the stack has no bound: {what}: {}", graph.name(at))
-        })?;
+        let bound = deepest(function.start, &graph.nodes, &mut Vec::new())
+            .map_err(|(what, at)| format!("the stack has no bound: {what}: {}", graph.name(at)))?;
         bounds.push(bound);
     }
     bounds.sort_unstable();

@@ -71,7 +71,15 @@ impl Toolchain {
             format!("-C linker={linker} -C link-arg=-T{script} -Zemit-stack-sizes{rust_flags}");
         let mut command = Command::new(cargo());
         command
-            .args(["build", "--release", "--quiet", "-Zbuild-std=core", "--target", TARGET])
+            .args([
+                "build",
+                "--profile",
+                "firmware",
+                "--quiet",
+                "-Zbuild-std=core",
+                "--target",
+                TARGET,
+            ])
             .env("RUSTC", &self.compiler)
             .env("RUSTC_BOOTSTRAP", "1")
             .env("RUSTFLAGS", flags)
@@ -92,12 +100,12 @@ impl Toolchain {
 }
 
 /// The cargo that runs this chore.
-pub(super) fn cargo() -> OsString {
+pub(crate) fn cargo() -> OsString {
     env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
 }
 
 /// Where the embedded workspace is built.
-pub(super) fn target_folder() -> PathBuf {
+pub(crate) fn target_folder() -> PathBuf {
     let target = env::var_os("CARGO_TARGET_DIR").map_or_else(|| "target".into(), PathBuf::from);
     repository_root().join(target).join("embedded")
 }
@@ -110,7 +118,7 @@ fn version(program: &Path, arguments: &[&str]) -> Option<String> {
 }
 
 /// What a command prints; what it complains of if it fails.
-pub(super) fn output_of(command: &mut Command) -> Result<String, String> {
+pub(crate) fn output_of(command: &mut Command) -> Result<String, String> {
     let line = format!("{command:?}");
     let Output { status, stdout, stderr } =
         command.output().map_err(|why| format!("{line}: could not be started: {why}"))?;

@@ -1,6 +1,6 @@
 //! The golden control periods on the host: `on_host single|double|difference`.
 
-use wrasse_golden_periods::{Machine, Number, run};
+use wrasse_golden_periods::{Machine, run};
 
 /// Lines go to standard output; nothing is counted.
 struct Host;
