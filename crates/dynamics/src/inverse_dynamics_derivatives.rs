@@ -354,11 +354,10 @@ impl<T: Real, const J: usize> InverseDynamicsDerivatives<T, J> {
     #[inline(always)]
     pub(crate) fn nothing(count: usize) -> Self {
         let no_force = SpatialForce::zero();
-        let columns = JointColumns::filled(no_force);
         Self {
             force: Generalized::default(),
-            by_position: columns,
-            by_rate: columns,
+            by_position: JointColumns::filled(no_force),
+            by_rate: JointColumns::filled(no_force),
             by_base_velocity: BaseColumns { base: [no_force; 6], joints: [[T::zero(); 6]; J] },
             by_acceleration: MassMatrix {
                 count,

@@ -1,8 +1,7 @@
 //! The inverse of the mass matrix: accelerations per unit force.
 
-use crate::{Generalized, GeneralizedForce, GeneralizedVelocity, MassMatrix};
-use core::array;
-use wrasse_spatial::{Real, SpatialForce, SpatialInertia, SpatialVelocity, Sym3, Vec3, vec3};
+use crate::{BodyId, Generalized, GeneralizedForce, GeneralizedVelocity, MassMatrix, Robot};
+use wrasse_spatial::{Real, SpatialVelocity};
 
 /// `M⁻¹` in the blocks of [`MassMatrix`]; symmetric.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,47 +16,206 @@ pub struct InverseMassMatrix<T, const J: usize> {
     pub A_jj: [[T; J]; J],
 }
 
-/// Inverse of the mass matrix: the base's block eliminated as a rigid body, the joints' by `L D Lᵀ`.
+/// Inverse of the mass matrix: arm by arm with the base held, then the base with what hangs on it.
 ///
 /// No branch is taken on a value: a mass matrix that is not positive definite gives numbers without
 /// meaning.
 ///
 /// # Source
-/// G. Golub, C. Van Loan, *Matrix Computations*, 4th ed., Johns Hopkins, 2013, ch. 4.1.
+/// G. Golub, C. Van Loan, *Matrix Computations*, 4th ed., Johns Hopkins, 2013, ch. 4.1 (`L D Lᵀ`).
 #[inline(always)]
 pub fn inverse_mass_matrix<T: Real, const J: usize>(
+    robot: &Robot<T, J>,
     M: &MassMatrix<T, J>,
 ) -> InverseMassMatrix<T, J> {
-    let (n, locked) = (M.count.min(J), Locked::new(&M.M_bb));
-    // 1. How the base recoils with joints moving at unit rate, and what is left for the joints.
-    let mut recoil = [SpatialVelocity::zero(); J];
-    let mut H = [[T::zero(); J]; J];
-    for i in 0..n {
-        recoil[i] = locked.velocity_of(&M.M_bj[i]);
-        for j in 0..=i {
-            H[i][j] = M.M_jj[i][j] - recoil[i].power(&M.M_bj[j]);
-        }
+    Elimination::new(robot, M).inverse()
+}
+
+/// The mass matrix, eliminated: arms first, the base last. Joints stand in another order here, arm
+/// after arm: they have *places*.
+pub(crate) struct Elimination<T, const J: usize> {
+    count: usize,
+    /// Joint in each place.
+    joints: [usize; J],
+    /// Places of the arm of the joint in each place.
+    arms: [Span; J],
+    /// `M_jj⁻¹`: accelerations per unit force while the base is held. Zero between arms.
+    held: [[T; J]; J],
+    /// `Z = M_bj M_jj⁻¹`: wrench that then holds the base, per unit force of each joint.
+    Z: [[T; 6]; J],
+    /// `(M_bb - Z M_bjᵀ)⁻¹`: the base block of the inverse.
+    A_bb: [[T; 6]; 6],
+}
+
+/// Places from the first to the one after the last.
+#[derive(Clone, Copy, PartialEq)]
+struct Span {
+    first: usize,
+    end: usize,
+}
+
+impl Span {
+    #[inline(always)]
+    fn of<'a, E>(&self, places: &'a [E]) -> &'a [E] {
+        &places[self.first..self.end]
     }
-    // 2. The joints' block, and back to the base.
-    let A_jj = inverse(&H, n);
-    let mut A_bj = [SpatialVelocity::zero(); J];
-    for j in 0..n {
-        for i in 0..n {
-            A_bj[j] += recoil[i] * -A_jj[i][j];
-        }
+}
+
+/// Joint in each place, and the places of its arm.
+#[inline(always)]
+fn places<T: Real, const J: usize>(robot: &Robot<T, J>) -> ([usize; J], [Span; J]) {
+    let (mut joints, mut arms) = ([0; J], [Span { first: 0, end: 0 }; J]);
+    let (mut roots, mut end) = ([0; J], 0);
+    for j in robot.joints() {
+        roots[j] = match robot.joint(j).parent {
+            BodyId::Base => j,
+            BodyId::Link(p) => roots[p],
+        };
     }
-    let mut A_bb: [_; 6] = array::from_fn(|c| {
-        let mut unit = [T::zero(); 6];
-        unit[c] = T::one();
-        locked.velocity_of(&SpatialForce::from_array(unit))
-    });
-    for j in 0..n {
-        let recoil = recoil[j].to_array();
+    for root in robot.joints().filter(|&j| robot.joint(j).parent == BodyId::Base) {
+        let first = end;
+        for j in robot.joints().filter(|&j| roots[j] == root) {
+            joints[end] = j;
+            end += 1;
+        }
+        arms[first..end].fill(Span { first, end });
+    }
+    (joints, arms)
+}
+
+impl<T: Real, const J: usize> Elimination<T, J> {
+    #[inline(always)]
+    pub(crate) fn new(robot: &Robot<T, J>, M: &MassMatrix<T, J>) -> Self {
+        let (count, (joints, arms)) = (M.count.min(J), places(robot));
+        // 1. Each arm by itself, the base held.
+        let mut M_jj = [[T::zero(); J]; J];
+        for a in 0..count {
+            for b in arms[a].first..arms[a].end {
+                M_jj[a][b] = M.M_jj[joints[a]][joints[b]];
+            }
+        }
+        let held = inverse(&M_jj, count, |a| arms[a].first);
+        // 2. What that takes from the base, and the base with what is left.
+        let columns = joints.map(|j| M.M_bj[j].to_array());
+        let mut Z = [[T::zero(); 6]; J];
+        let mut left = M.M_bb.to_matrix();
+        for a in 0..count {
+            for (column, x) in arms[a].of(&columns).iter().zip(arms[a].of(&held[a])) {
+                take(&mut Z[a], -*x, column);
+            }
+            for r in 0..6 {
+                take(&mut left[r], Z[a][r], &columns[a]);
+            }
+        }
+        let A_bb = inverse(&left, 6, |_| 0);
+        Self { count, joints, arms, held, Z, A_bb }
+    }
+    /// The whole inverse: `A_bj = -A_bb Z`, `A_jj = M_jj⁻¹ - Zᵀ A_bj`.
+    #[inline(always)]
+    pub(crate) fn inverse(&self) -> InverseMassMatrix<T, J> {
+        let mut found = InverseMassMatrix {
+            count: self.count,
+            A_bb: self.A_bb.map(SpatialVelocity::from_array),
+            A_bj: [SpatialVelocity::zero(); J],
+            A_jj: [[T::zero(); J]; J],
+        };
+        for a in 0..self.count {
+            let j = self.joints[a];
+            let mut column = [T::zero(); 6];
+            for c in 0..6 {
+                take(&mut column, self.Z[a][c], &self.A_bb[c]);
+            }
+            found.A_bj[j] = SpatialVelocity::from_array(column);
+            for b in 0..=a {
+                let i = self.joints[b];
+                let mut sum = self.held[a][b];
+                for r in 0..6 {
+                    sum -= self.Z[b][r] * column[r];
+                }
+                found.A_jj[i][j] = sum;
+                found.A_jj[j][i] = sum;
+            }
+        }
+        found
+    }
+    /// Joint in each place.
+    #[inline(always)]
+    pub(crate) fn joints(&self) -> &[usize] {
+        &self.joints[..self.count]
+    }
+    /// Place after the last of the arm of the joint in a place.
+    #[inline(always)]
+    pub(crate) fn arm_end(&self, place: usize) -> usize {
+        self.arms[place].end
+    }
+    /// `-M⁻¹ F` of some columns, rows by place. Where a place is given, the columns are zero in all
+    /// joints that are not of its arm.
+    #[inline(always)]
+    pub(crate) fn give_way<const W: usize>(
+        &self,
+        F: &Rows<T, J, W>,
+        place: Option<usize>,
+    ) -> Rows<T, J, W> {
+        let span = place.map_or(Span { first: 0, end: self.count }, |a| self.arms[a]);
+        let mut found = Rows::zero();
+        let mut wrench = F.base;
+        for (z, row) in span.of(&self.Z).iter().zip(span.of(&F.joints)) {
+            for r in 0..6 {
+                take(&mut wrench[r], z[r], row);
+            }
+        }
         for c in 0..6 {
-            A_bb[c] += A_bj[j] * -recoil[c];
+            for r in 0..6 {
+                take(&mut found.base[r], self.A_bb[c][r], &wrench[c]);
+            }
+        }
+        for a in 0..self.count {
+            let mut row = [T::zero(); W];
+            for r in 0..6 {
+                take(&mut row, self.Z[a][r], &found.base[r]);
+            }
+            if span.first <= a && a < span.end {
+                let arm = &self.arms[a];
+                for (x, other) in arm.of(&self.held[a]).iter().zip(arm.of(&F.joints)) {
+                    take(&mut row, *x, other);
+                }
+            }
+            found.joints[a] = row;
+        }
+        found
+    }
+}
+
+/// Rows of `W` columns, side by side.
+pub(crate) struct Rows<T, const J: usize, const W: usize> {
+    pub(crate) base: [[T; W]; 6],
+    pub(crate) joints: [[T; W]; J],
+}
+
+impl<T: Real, const J: usize, const W: usize> Rows<T, J, W> {
+    #[inline(always)]
+    pub(crate) fn zero() -> Self {
+        Self { base: [[T::zero(); W]; 6], joints: [[T::zero(); W]; J] }
+    }
+    /// The base's six of each column.
+    #[inline(always)]
+    pub(crate) fn set_base(&mut self, columns: [[T; 6]; W]) {
+        for r in 0..6 {
+            self.base[r] = columns.map(|six| six[r]);
         }
     }
-    InverseMassMatrix { count: n, A_bb, A_bj, A_jj }
+    #[inline(always)]
+    pub(crate) fn base_column(&self, column: usize) -> SpatialVelocity<T> {
+        SpatialVelocity::from_array(self.base.map(|row| row[column]))
+    }
+}
+
+/// `row -= s x`.
+#[inline(always)]
+fn take<T: Real, const W: usize>(row: &mut [T; W], s: T, x: &[T; W]) {
+    for c in 0..W {
+        row[c] -= s * x[c];
+    }
 }
 
 impl<T: Real, const J: usize> InverseMassMatrix<T, J> {
@@ -90,64 +248,31 @@ impl<T: Real, const J: usize> InverseMassMatrix<T, J> {
     }
 }
 
-/// The whole system with its joints locked, ready to give the velocity of a momentum.
-struct Locked<T> {
-    per_mass: T,
-    p_cm: Vec3<T>,
-    /// Inverse of the inertia about the centre of mass.
-    per_inertia: Sym3<T>,
-}
-
-impl<T: Real> Locked<T> {
-    #[inline(always)]
-    fn new(M: &SpatialInertia<T>) -> Self {
-        let per_mass = T::one() / M.mass;
-        let p_cm = M.first_moment * per_mass;
-        let I = M.rotational - Sym3::of_point(M.mass, p_cm);
-        let (o, i) = (T::zero(), T::one());
-        let [x, y, z] = [vec3(i, o, o), vec3(o, i, o), vec3(o, o, i)].map(|unit| I.solve(unit));
-        let per_inertia = Sym3 { xx: x.x, xy: x.y, xz: x.z, yy: y.y, yz: y.z, zz: z.z };
-        Self { per_mass, p_cm, per_inertia }
-    }
-    #[inline(always)]
-    fn velocity_of(&self, h: &SpatialForce<T>) -> SpatialVelocity<T> {
-        // Through the centre of mass the rotation and the translation come apart.
-        let w = self.per_inertia * (h.torque - self.p_cm.cross(h.force));
-        SpatialVelocity::new(w, h.force * self.per_mass - w.cross(self.p_cm))
-    }
-}
-
-/// Inverse of the leading `n`×`n` part of a symmetric matrix; only its lower triangle is read.
+/// Inverse of the leading `n`×`n` part of a symmetric matrix, which is zero in each row up to the
+/// given first element.
 #[inline(always)]
-fn inverse<T: Real, const J: usize>(H: &[[T; J]; J], n: usize) -> [[T; J]; J] {
-    // H = L D Lᵀ. Row by row L, and X = L⁻¹; H⁻¹ is the sum of x xᵀ/d over the rows x of X.
-    let (mut L, mut X) = ([[T::zero(); J]; J], [[T::zero(); J]; J]);
-    let (mut per_pivot, mut found) = ([T::zero(); J], [[T::zero(); J]; J]);
-    for i in 0..n.min(J) {
-        let (mut pivot, mut scaled) = (H[i][i], [T::zero(); J]);
-        for j in 0..i {
-            let mut sum = H[i][j];
-            for k in 0..j {
-                sum -= scaled[k] * L[j][k];
-            }
-            scaled[j] = sum;
-            L[i][j] = sum * per_pivot[j];
-            pivot -= sum * L[i][j];
+fn inverse<T: Real, const N: usize>(
+    H: &[[T; N]; N],
+    n: usize,
+    first: impl Fn(usize) -> usize,
+) -> [[T; N]; N] {
+    // H = L U with U = D Lᵀ, X = L⁻¹; H⁻¹ is the sum of x xᵀ/d over the rows x of X. Whole rows,
+    // zeros too: their number is known when this is compiled.
+    let (mut U, mut X) = ([[T::zero(); N]; N], [[T::zero(); N]; N]);
+    let (mut per_pivot, mut found) = ([T::zero(); N], [[T::zero(); N]; N]);
+    for i in 0..n.min(N) {
+        let (mut u, mut x) = (H[i], [T::zero(); N]);
+        x[i] = T::one();
+        for k in first(i)..i {
+            let l = u[k] * per_pivot[k];
+            take(&mut u, l, &U[k]);
+            take(&mut x, l, &X[k]);
         }
-        per_pivot[i] = T::one() / pivot;
-        X[i][i] = T::one();
-        for k in 0..i {
-            let (above, row) = X.split_at_mut(i);
-            for (x, y) in row[0].iter_mut().zip(&above[k][..=k]) {
-                *x -= L[i][k] * *y;
-            }
+        per_pivot[i] = T::one() / u[i];
+        for r in first(i)..=i {
+            take(&mut found[r], -(x[r] * per_pivot[i]), &x);
         }
-        for r in 0..i + 1 {
-            let x = X[i][r] * per_pivot[i];
-            for (sum, y) in found[r].iter_mut().zip(&X[i][..=i]) {
-                *sum += x * *y;
-            }
-        }
+        (U[i], X[i]) = (u, x);
     }
     found
 }

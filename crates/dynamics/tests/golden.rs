@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
 #![allow(clippy::print_stdout, reason = "prints what was measured, under --nocapture")]
 
+mod derivatives;
 mod urdf_robot;
 
 use serde_json::Value;

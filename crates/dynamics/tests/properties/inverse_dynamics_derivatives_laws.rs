@@ -75,7 +75,7 @@ fn found(s: &Scene) -> InverseDynamicsDerivatives<f64, JOINTS> {
     inverse_dynamics_derivatives(&kinematics(&s.robot, &s.state), &s.nudot, &s.external)
 }
 
-/// The forces come with their derivatives. Measured 0.0.
+/// The forces come with their derivatives. Measured 2e-15.
 #[test]
 fn the_forces_that_are_differentiated_are_those_of_inverse_dynamics() {
     for_every_robot(1e-13, |s| {
@@ -84,10 +84,10 @@ fn the_forces_that_are_differentiated_are_those_of_inverse_dynamics() {
     });
 }
 
-/// Two routes to one exact derivative; they share the joints' poses. Measured 0.0.
+/// Two routes to one exact derivative; they share the joints' poses. Measured 4e-15.
 #[test]
 fn the_forces_change_with_joint_positions_as_duals_say() {
-    for_every_robot(1e-12, |s| {
+    for_every_robot(1e-13, |s| {
         let d = found(s).by_position;
         let columns =
             s.robot.joints().map(|j| (d.column(j), by_duals(s, |x, _| vary(&mut x.q[j]))));
@@ -95,10 +95,10 @@ fn the_forces_change_with_joint_positions_as_duals_say() {
     });
 }
 
-/// As above. Measured 0.0.
+/// As above. Measured 7e-15.
 #[test]
 fn the_forces_change_with_joint_rates_as_duals_say() {
-    for_every_robot(1e-12, |s| {
+    for_every_robot(1e-13, |s| {
         let d = found(s).by_rate;
         let columns =
             s.robot.joints().map(|j| (d.column(j), by_duals(s, |x, _| vary(&mut x.v[j]))));
@@ -106,10 +106,10 @@ fn the_forces_change_with_joint_rates_as_duals_say() {
     });
 }
 
-/// As above. Measured 0.0.
+/// As above. Measured 2e-15.
 #[test]
 fn the_forces_change_with_the_twist_of_the_base_as_duals_say() {
-    for_every_robot(1e-12, |s| {
+    for_every_robot(1e-13, |s| {
         let d = found(s).by_base_velocity;
         worst((0..6).map(|c| (d.column(c), by_duals(s, |x, _| vary_six(&mut x.V_NB_B, c)))))
     });
@@ -127,8 +127,8 @@ where
     columns.iter().fold(0.0, |m: f64, (a, b)| m.max(gap_at(a, b, scale)))
 }
 
-/// In free space nothing depends on where the base is and how it is turned: the duals of inverse
-/// dynamics itself, which reads the pose, say so. Measured 0.
+/// In free space nothing depends on where the base is and how it is turned: duals through inverse
+/// dynamics say so. Measured 0.
 #[test]
 fn the_forces_do_not_change_with_the_pose_of_the_base() {
     for_every_robot(0.0, |s| {
@@ -136,7 +136,7 @@ fn the_forces_do_not_change_with_the_pose_of_the_base() {
     });
 }
 
-/// Both are sums over composite bodies, by different routes. Measured 0.0.
+/// Both are sums over composite bodies, by different routes. Measured 8e-16.
 #[test]
 fn the_derivative_by_acceleration_is_the_mass_matrix() {
     for_every_robot(1e-13, |s| {
@@ -156,7 +156,7 @@ fn stepped(s: &Scene, h: f64) -> GeneralizedForce<f64, JOINTS> {
     inverse_dynamics(&kinematics(&s.robot, &state), &s.nudot, &s.external).force
 }
 
-/// Error of fourth order in the step of 1e-3, and round-off over the step. Measured 0.0.
+/// Error of fourth order in the step of 1e-3, and round-off over the step. Measured 5e-11.
 #[test]
 fn a_small_step_changes_the_forces_by_their_derivatives() {
     for_every_robot(1e-9, |s| {
