@@ -13,6 +13,7 @@ mod progress;
 mod run;
 mod schema;
 mod size;
+mod sweep;
 mod vehicles;
 
 use clap::{Parser, Subcommand};
@@ -31,6 +32,7 @@ struct Wrasse {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Run),
+    Sweep(sweep::Sweep),
     Size(size::Size),
     Check(check::Check),
     Vehicles(vehicles::Vehicles),
@@ -42,6 +44,7 @@ enum Command {
 fn main() -> ExitCode {
     match Wrasse::parse().command {
         Command::Run(run) => run.go(),
+        Command::Sweep(sweep) => sweep.go(),
         Command::Size(size) => size.go(),
         Command::Check(check) => check.go(),
         Command::Vehicles(vehicles) => vehicles.go(),

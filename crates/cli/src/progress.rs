@@ -29,6 +29,23 @@ impl Bar {
             self.0.set_message(message);
         }
     }
+    /// A bar that counts flights.
+    pub(crate) fn counting() -> Self {
+        let bar = ProgressBar::new(1);
+        let style = ProgressStyle::with_template("{bar:32} {pos} of {len} flights  {eta} left");
+        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+        Self(bar)
+    }
+    /// How many flights are done, of how many.
+    pub(crate) fn count(&self, done: u64, of: u64) {
+        // What was done before does not count for how long the rest takes.
+        if self.0.length() != Some(of) {
+            self.0.set_length(of);
+            self.0.set_position(done);
+            self.0.reset_eta();
+        }
+        self.0.set_position(done);
+    }
     pub(crate) fn done(self) {
         self.0.finish_and_clear();
     }

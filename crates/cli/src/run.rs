@@ -24,6 +24,13 @@ pub(crate) struct Run {
     /// Print the summary as JSON in place of the table.
     #[arg(long)]
     json: bool,
+    /// Fly this sample of a sweep: with what it draws of what the mission disperses. The results go to
+    /// out/NAME-sample-K.
+    #[arg(long, value_name = "K")]
+    sample: Option<u64>,
+    /// Seed of the sweep, if not the mission's.
+    #[arg(long, value_name = "S", requires = "sample")]
+    seed: Option<u64>,
     /// Fly once more at half the step, and report what that changes.
     #[arg(long)]
     error_estimate: bool,
@@ -38,7 +45,7 @@ impl Run {
                 return bad();
             }
         };
-        let mission = match read_mission(&self.mission, text) {
+        let mut mission = match read_mission(&self.mission, text) {
             Ok(mission) => mission,
             Err(complaints) => {
                 complain(&complaints);
@@ -48,7 +55,12 @@ impl Run {
         if !mission.remarks.is_empty() {
             complain(&mission.remarks);
         }
-        let folder = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&mission.name));
+        let mut usual = PathBuf::from("out").join(&mission.name);
+        if let Some(sample) = self.sample {
+            usual = PathBuf::from("out").join(format!("{}-sample-{sample}", mission.name));
+            mission = mission.sampled(self.seed.unwrap_or(mission.seed), sample);
+        }
+        let folder = self.out.clone().unwrap_or(usual);
         if let Some(way) = in_the_way(&folder) {
             tell(&format!(
                 "error: the results cannot be written to {}: {} is not a folder; choose another \

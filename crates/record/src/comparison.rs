@@ -148,10 +148,15 @@ pub(crate) fn judged(requirement: &str, comparison: &str) -> String {
 
 /// The case in words, from its labels: `law=terrestrial, payload=200 kg`; `run` for the only one.
 pub(crate) fn case_name(case: &CaseOutcome) -> String {
-    if case.labels.is_empty() {
+    name_of(&case.labels)
+}
+
+/// The name that axes and rows give a case.
+pub(crate) fn name_of(labels: &[(String, String)]) -> String {
+    if labels.is_empty() {
         return "run".to_owned();
     }
-    let labels: Vec<_> = case.labels.iter().map(|(axis, row)| format!("{axis}={row}")).collect();
+    let labels: Vec<_> = labels.iter().map(|(axis, row)| format!("{axis}={row}")).collect();
     labels.join(", ")
 }
 

@@ -137,7 +137,8 @@ fn write_case(
     Ok(())
 }
 
-fn next_column<'a>(
+/// The column that is written next.
+pub(crate) fn next_column<'a>(
     rows: &'a mut SerializedRowGroupWriter<'_, &mut Vec<u8>>,
 ) -> Result<SerializedColumnWriter<'a>, RecordError> {
     Ok(rows.next_column()?.expect("the schema has a field for each column that is written"))

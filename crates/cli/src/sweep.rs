@@ -1,0 +1,126 @@
+//! `wrasse sweep`: many samples of a mission of which not everything is known exactly.
+
+use crate::input::{complain, say, tell, text_of};
+use crate::progress::Bar;
+use crate::run::in_the_way;
+use crate::{YES, bad, no};
+use clap::Args;
+use std::num::{NonZeroU64, NonZeroUsize};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use wrasse_mission::{Mission, read_mission};
+use wrasse_record::{sweep_json, sweep_table, write_sweep};
+use wrasse_sweep::{SweepOutcome, sweep};
+
+/// Fly many samples of a mission: how often it succeeds, how its values spread, which samples are worst.
+///
+/// What each sample draws stands in the mission file, in tables [[disperse]]; see missions/sweeps. Writes
+/// report.html, samples.parquet and summary.json to out/NAME-sweep, and keeps what is flown in its folder
+/// `parts` on the way: interrupted, the same command goes on from there; with more samples it begins with
+/// those. `wrasse run MISSION --sample K` flies one of them again, to the same bits, with a full report.
+/// Exit code 0: the sweep was flown, and --pass-rate is reached if it was asked for; 1: it is not; 2: bad
+/// input.
+#[derive(Debug, Args)]
+pub(crate) struct Sweep {
+    /// The mission file.
+    mission: PathBuf,
+    /// Samples of each case.
+    #[arg(long, value_name = "N", default_value = "1000")]
+    samples: NonZeroU64,
+    /// Seed of all draws, in place of the mission's.
+    #[arg(long, value_name = "S")]
+    seed: Option<u64>,
+    /// Samples flown at a time; as many as the machine has processors if not given. The results are the
+    /// same for any number.
+    #[arg(long, value_name = "T")]
+    threads: Option<NonZeroUsize>,
+    /// Share of passing samples (0 to 1) that the lower end of the confidence interval must reach in each
+    /// case; else the exit code is 1.
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    pass_rate: Option<f64>,
+    /// Folder for the results, in place of out/NAME-sweep.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Print the summary as JSON in place of the tables.
+    #[arg(long)]
+    json: bool,
+}
+
+/// A share from 0 to 1.
+fn share(text: &str) -> Result<f64, String> {
+    let found = text.parse::<f64>().ok().filter(|x| (0.0..=1.0).contains(x));
+    found.ok_or_else(|| "a share is a number from 0 to 1, such as 0.99".into())
+}
+
+impl Sweep {
+    pub(crate) fn go(&self) -> ExitCode {
+        let text = match text_of(&self.mission) {
+            Ok(text) => text,
+            Err(sentence) => {
+                tell(&format!("error: {sentence}"));
+                return bad();
+            }
+        };
+        let mission = match read_mission(&self.mission, text) {
+            Ok(mission) => mission,
+            Err(complaints) => {
+                complain(&complaints);
+                return bad();
+            }
+        };
+        if !mission.remarks.is_empty() {
+            complain(&mission.remarks);
+        }
+        let usual = || PathBuf::from("out").join(format!("{}-sweep", mission.name));
+        let folder = self.out.clone().unwrap_or_else(usual);
+        if let Some(way) = in_the_way(&folder) {
+            tell(&format!(
+                "error: the results cannot be written to {}: {} is not a folder; choose another \
+                 place with --out",
+                folder.display(),
+                way.display()
+            ));
+            return bad();
+        }
+        match self.fly(&mission, &folder) {
+            Ok(outcome) => self.hand_over(&outcome, &folder),
+            Err(sentence) => {
+                tell(&format!("error: {sentence}"));
+                bad()
+            }
+        }
+    }
+
+    fn fly(&self, mission: &Mission, folder: &Path) -> Result<SweepOutcome, String> {
+        let threads = self.threads.or_else(|| std::thread::available_parallelism().ok());
+        let asked = wrasse_sweep::Sweep {
+            mission,
+            samples: self.samples.get(),
+            seed: self.seed.unwrap_or(mission.seed),
+            threads: threads.map_or(1, NonZeroUsize::get),
+        };
+        let bar = Bar::counting();
+        let outcome = sweep(&asked, &folder.join("parts"), &mut |done, of| bar.count(done, of));
+        bar.done();
+        outcome.map_err(|error| error.to_string())
+    }
+
+    /// Write the results, print what was asked for, say how it went.
+    fn hand_over(&self, outcome: &SweepOutcome, folder: &Path) -> ExitCode {
+        let written = match write_sweep(outcome, folder) {
+            Ok(written) => written,
+            Err(error) => {
+                tell(&format!("error: the results cannot be written: {error}"));
+                return bad();
+            }
+        };
+        if self.json {
+            say(&sweep_json(outcome).to_string());
+        } else {
+            say(&sweep_table(outcome));
+            say(&format!("report: {}", written.report.display()));
+        }
+        let wanted = self.pass_rate.unwrap_or(0.0);
+        if outcome.cases.iter().all(|case| case.passed.low >= wanted) { YES } else { no() }
+    }
+}

@@ -1,0 +1,125 @@
+//! Rows to findings: percentiles, pass rates, the worst samples, what they go with.
+
+use crate::outcome::{CaseSweep, EndCount, Influence, RequirementSweep, SweepOutcome, WorstSample};
+use crate::pass_rate::{CONFIDENCE, PassRate};
+use crate::percentiles::Percentiles;
+use crate::rank_correlation::rank_correlation;
+use crate::row::Row;
+use crate::sweep::Sweep;
+use wrasse_mission::{End, Verdict};
+
+/// Worst samples that are told of each requirement.
+const WORST: usize = 5;
+
+/// Influences that are told of each requirement.
+const INFLUENCES: usize = 3;
+
+/// What all samples together say; rows in order of case, then sample.
+pub(crate) fn sum_up(asked: &Sweep<'_>, rows: Vec<Row>) -> SweepOutcome {
+    let mission = asked.mission;
+    let mut of_cases: Vec<Vec<Row>> = vec![vec![]; mission.case_count()];
+    for row in rows {
+        of_cases[row.case].push(row);
+    }
+    let cases = of_cases.into_iter().enumerate().map(|(case, rows)| of_case(asked, case, rows));
+    SweepOutcome {
+        mission: mission.name.clone(),
+        summary: mission.summary.clone(),
+        mission_file: mission.file.clone(),
+        mission_text: mission.text.clone(),
+        version: env!("CARGO_PKG_VERSION").into(),
+        seed: asked.seed,
+        samples: asked.samples,
+        confidence: CONFIDENCE,
+        cases: cases.collect(),
+    }
+}
+
+fn of_case(asked: &Sweep<'_>, case: usize, rows: Vec<Row>) -> CaseSweep {
+    let mission = asked.mission;
+    let dispersed: Vec<String> = mission.dispersed(case).into_iter().map(str::to_owned).collect();
+    let required = mission.required(case);
+    let each = required.into_iter().enumerate();
+    CaseSweep {
+        labels: mission.case_labels(case).to_vec(),
+        passed: PassRate::of(rows.iter().filter(|row| row.passed).count(), rows.len()),
+        ends: ends(&rows),
+        open_books: rows.iter().filter(|row| !row.closes).count(),
+        requirements: each.map(|(i, v)| of_requirement(asked, &rows, i, v, &dispersed)).collect(),
+        dispersed,
+        rows,
+    }
+}
+
+/// How the flights ended, in the order in which the ways are first met.
+fn ends(rows: &[Row]) -> Vec<EndCount> {
+    let mut ends: Vec<EndCount> = vec![];
+    for row in rows {
+        let (end, reason) = match &row.end {
+            End::Completed => ("completed", String::new()),
+            End::Infeasible { reason, .. } => ("infeasible", reason.clone()),
+            End::Stopped { reason, .. } => ("stopped", reason.clone()),
+            End::Breakdown { reason, .. } => ("breakdown", reason.clone()),
+        };
+        match ends.iter_mut().find(|known| known.end == end) {
+            Some(known) => known.count += 1,
+            None => ends.push(EndCount { end: end.into(), count: 1, first: row.sample, reason }),
+        }
+    }
+    ends
+}
+
+fn of_requirement(
+    asked: &Sweep<'_>,
+    rows: &[Row],
+    i: usize,
+    required: Verdict,
+    dispersed: &[String],
+) -> RequirementSweep {
+    let holding = rows.iter().filter(|row| row.holds[i]).count();
+    let values = || rows.iter().filter_map(|row| row.values[i]);
+    let mut influences: Vec<Influence> = vec![];
+    for (k, quantity) in dispersed.iter().enumerate() {
+        let pairs: Vec<_> = rows
+            .iter()
+            .filter_map(|row| row.values[i].map(|value| (row.deviations[k], value)))
+            .collect();
+        let found = rank_correlation(&pairs);
+        influences.extend(
+            found
+                .map(|rank_correlation| Influence { quantity: quantity.clone(), rank_correlation }),
+        );
+    }
+    influences.sort_by(|a, b| b.rank_correlation.abs().total_cmp(&a.rank_correlation.abs()));
+    influences.truncate(INFLUENCES);
+    RequirementSweep {
+        holds: PassRate::of(holding, rows.len()),
+        absent: rows.len() - values().count(),
+        values: Percentiles::of(values()),
+        worst: worst(asked, rows, i, required.comparison.starts_with('<')),
+        influences,
+        requirement: required.requirement,
+        comparison: required.comparison,
+        limit: required.limit,
+        unit: required.unit,
+    }
+}
+
+/// The samples without a value, then those with the worst.
+fn worst(asked: &Sweep<'_>, rows: &[Row], i: usize, large_is_bad: bool) -> Vec<WorstSample> {
+    let mut order: Vec<&Row> = rows.iter().collect();
+    let badness = |row: &Row| match row.values[i] {
+        None => f64::INFINITY,
+        Some(value) if large_is_bad => value,
+        Some(value) => -value,
+    };
+    // Equal ones stay in the order of their numbers.
+    order.sort_by(|a, b| badness(b).total_cmp(&badness(a)));
+    order.truncate(WORST);
+    let each = order.into_iter().map(|row| WorstSample {
+        sample: row.sample,
+        value: row.values[i],
+        command: asked.command(row.sample),
+    });
+    each.collect()
+}

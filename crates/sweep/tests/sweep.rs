@@ -1,0 +1,172 @@
+//! A sweep is the same in one go or in many, by one thread or by several.
+
+use std::fs;
+use std::path::Path;
+use wrasse_mission::{Mission, read_mission};
+use wrasse_sweep::{Row, Sweep, SweepError, sweep};
+
+/// Short, with two laws to compare, a payload that is not known, and a requirement that some fail.
+const MISSION: &str = r#"
+name = "quick"
+vehicle = "atlas-class"
+requirements = ["tool.position_error.max <= 0.1 mm", "joints.effort_use.max <= 100 %"]
+
+[initial]
+posture = "sideways_300mm"
+
+[payload.module]
+mass_kg = 200.0
+uniform_box_m = [1.0, 1.0, 1.0]
+held_by = "tool"
+
+[world]
+base_attitude = "controlled"
+joints = "torque"
+
+[control]
+arm_law = "attitude-held"
+
+[[phase]]
+name = "reach"
+move_tool = { by_m = [0.0, 0.02, 0.0], duration_s = 1.0 }
+
+[[disperse]]
+quantity = "payload.module.mass_kg"
+sigma = 10.0
+within = 30.0
+
+[[disperse]]
+quantity = "payload.module.centre_of_mass_m"
+sigma = 0.02
+
+[[compare]]
+axis = "feedforward"
+
+[[compare.row]]
+name = "exact"
+
+[[compare.row]]
+name = "none"
+set.control.feedforward = "none"
+"#;
+
+fn mission(text: &str) -> Mission {
+    read_mission("quick.toml", text).unwrap_or_else(|complaints| {
+        panic!("{}", wrasse_document::render(&complaints, false));
+    })
+}
+
+/// All rows of a sweep of this many samples.
+#[track_caller]
+fn rows(mission: &Mission, samples: u64, threads: usize, folder: &Path) -> Vec<Vec<Row>> {
+    let asked = Sweep { mission, samples, seed: 11, threads };
+    let outcome = sweep(&asked, folder, &mut |_, _| {}).expect("it is flown");
+    outcome.cases.into_iter().map(|case| case.rows).collect()
+}
+
+fn folder() -> tempfile::TempDir {
+    tempfile::tempdir().expect("a folder for the samples")
+}
+
+fn parts(folder: &Path) -> Vec<std::path::PathBuf> {
+    let entries = fs::read_dir(folder).expect("the folder is there");
+    let mut parts: Vec<_> = entries.map(|e| e.expect("an entry").path()).collect();
+    parts.retain(|path| path.extension().is_some_and(|ending| ending == "jsonl"));
+    parts.sort();
+    parts
+}
+
+#[test]
+fn threads_and_interruptions_change_no_bit() {
+    let mission = mission(MISSION);
+    let whole = rows(&mission, 20, 1, folder().path());
+    assert_eq!(whole.iter().map(Vec::len).collect::<Vec<_>>(), [20, 20]);
+    assert!(whole[0].iter().enumerate().all(|(k, row)| row.sample == k as u64));
+
+    let place = folder();
+    assert_eq!(rows(&mission, 20, 3, place.path()), whole);
+
+    // What an interruption leaves: some parts, and one that was not finished.
+    let all = parts(place.path());
+    assert_eq!(all.len(), 6, "{all:?}");
+    let kept = fs::read(&all[0]).expect("a part");
+    for part in all.iter().skip(1).step_by(2) {
+        fs::remove_file(part).expect("it was there");
+    }
+    let torn = all[1].file_name().expect("it has a name").to_string_lossy().into_owned();
+    fs::write(place.path().join(format!(".{torn}.1")), &kept[..kept.len() / 2]).expect("room");
+    let mut flown = vec![];
+    let asked = Sweep { mission: &mission, samples: 20, seed: 11, threads: 2 };
+    let outcome = sweep(&asked, place.path(), &mut |done, of| flown.push((done, of)));
+    let again: Vec<_> =
+        outcome.expect("it goes on").cases.into_iter().map(|case| case.rows).collect();
+    assert_eq!(again, whole);
+    assert!(flown[0].0 >= 16 && flown[0].0 < 40, "it began with what was there: {flown:?}");
+    assert_eq!(flown.last(), Some(&(40, 40)));
+}
+
+#[test]
+fn a_larger_sweep_begins_with_the_samples_of_a_smaller_one() {
+    let (mission, place) = (mission(MISSION), folder());
+    let few = rows(&mission, 3, 1, place.path());
+    let many = rows(&mission, 12, 2, place.path());
+    assert_eq!(many[0].len(), 12);
+    assert_eq!(many[1][..3], few[1]);
+    assert_eq!(rows(&mission, 3, 1, place.path()), few, "and the smaller one is still there");
+}
+
+#[test]
+fn cases_fly_the_same_draws_and_the_findings_are_those_of_the_rows() {
+    let mission = mission(MISSION);
+    let asked = Sweep { mission: &mission, samples: 16, seed: 11, threads: 2 };
+    let outcome = sweep(&asked, folder().path(), &mut |_, _| {}).expect("it is flown");
+    let [exact, none] = &outcome.cases[..] else { panic!("two cases") };
+    for (a, b) in exact.rows.iter().zip(&none.rows) {
+        assert_eq!(a.deviations, b.deviations);
+        assert_ne!(a.values, b.values);
+    }
+    let error = &exact.requirements[0];
+    let values: Vec<f64> = exact.rows.iter().filter_map(|row| row.values[0]).collect();
+    let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    assert_eq!(error.values.expect("there are values").max, largest);
+    assert_eq!(error.worst[0].value, Some(largest));
+    assert_eq!(error.worst.len(), 5);
+    let worst = error.worst[0].sample;
+    assert_eq!(error.worst[0].command, format!("wrasse run quick.toml --sample {worst} --seed 11"));
+    assert_eq!(error.holds.passed, values.iter().filter(|x| **x <= 0.1).count());
+    assert!(error.holds.passed > 0 && error.holds.passed < 16, "some fail: {:?}", error.holds);
+    assert!(error.holds.low < error.holds.share() && error.holds.share() < error.holds.high);
+    assert_eq!(exact.ends.len(), 1);
+    assert_eq!((exact.ends[0].end.as_str(), exact.ends[0].count), ("completed", 16));
+    // An error that the feedforward does not know of comes of where the centre of mass is.
+    assert!(error.influences[0].rank_correlation.abs() > 0.3, "{:?}", error.influences);
+}
+
+#[test]
+fn samples_of_another_seed_or_mission_are_not_mixed_in() {
+    let (first, place) = (mission(MISSION), folder());
+    rows(&first, 2, 1, place.path());
+    let refused = |mission: &Mission, seed: u64| {
+        let asked = Sweep { mission, samples: 2, seed, threads: 1 };
+        let error = sweep(&asked, place.path(), &mut |_, _| {}).expect_err("it is another sweep");
+        assert!(matches!(error, SweepError::OtherSweep { .. }));
+        error.to_string()
+    };
+    assert!(refused(&first, 12).contains("its seed is 11, here it is 12"));
+    let heavier = mission(&MISSION.replace("sigma = 10.0", "sigma = 10.1"));
+    assert!(refused(&heavier, 11).contains("its fingerprint is"));
+    // Words change nothing of what is flown.
+    let retold = mission(&MISSION.replace("name = \"quick\"", "# told anew\nname = \"quick\""));
+    rows(&retold, 2, 1, place.path());
+}
+
+#[test]
+fn a_damaged_part_is_told_with_its_name() {
+    let (mission, place) = (mission(MISSION), folder());
+    rows(&mission, 2, 1, place.path());
+    let part = &parts(place.path())[0];
+    fs::write(part, "{\"case\": 0, \"sam").expect("room");
+    let asked = Sweep { mission: &mission, samples: 2, seed: 11, threads: 1 };
+    let told = sweep(&asked, place.path(), &mut |_, _| {}).expect_err("it is damaged").to_string();
+    assert!(told.contains(&part.display().to_string()) && told.contains("remove it"), "{told}");
+}
