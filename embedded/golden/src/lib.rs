@@ -9,6 +9,6 @@ mod random;
 mod report;
 mod run;
 
-pub use period::{Given, STATES, Start, Subject, one_arm, two_arms};
+pub use period::{STATES, Start, Subject, numbers, one_arm, two_arms};
 pub use report::{INSTRUCTIONS_PER_TICK, Machine};
 pub use run::{Number, run};

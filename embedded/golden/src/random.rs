@@ -14,7 +14,8 @@ impl Random {
     /// # Source
     /// Constants of Knuth's MMIX: D. E. Knuth, *The Art of Computer Programming*, vol. 2, 3.3.4.
     pub(crate) fn within(&mut self, limit: f64) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let high = (self.0 >> 40) as u32;
         (f64::from(high) / f64::from(1_u32 << 23) - 1.0) * limit
     }

@@ -1,6 +1,6 @@
 //! All golden periods, one line each.
 
-use crate::period::{STATES, Subject, one_arm, two_arms};
+use crate::period::{STATES, Subject, numbers, one_arm, two_arms};
 use crate::report::{Machine, decimal, hexadecimal};
 use wrasse_flight::ArmLaw;
 use wrasse_spatial::Real;
@@ -38,10 +38,10 @@ fn each<T: Number, const J: usize>(
     let Some(subject) = subject else { return };
     let mut deepest = 0;
     for number in 0..STATES {
-        let start = subject.start(number);
+        let mut start = subject.start(number);
         machine.mark_stack();
         let before = machine.ticks();
-        let given = subject.period(&start);
+        let given = subject.period(&mut start);
         let took = machine.ticks().wrapping_sub(before) & 0xFF_FFFF;
         deepest = deepest.max(machine.stack_used());
         machine.put(name);
@@ -49,7 +49,7 @@ fn each<T: Number, const J: usize>(
         machine.put(" ");
         decimal(machine, took);
         machine.put(" ");
-        hexadecimal(machine, hash(given.numbers()));
+        hexadecimal(machine, hash(numbers(&given)));
         machine.put("\n");
     }
     machine.put(name);

@@ -5,8 +5,8 @@
 
 use std::hint::black_box;
 use wrasse_dynamics::{
-    Generalized, PerBody, forward_dynamics, generalized_jacobian,
-    inverse_dynamics, jacobian, kinematics, mass_matrix, momentum_matrix,
+    Generalized, PerBody, forward_dynamics, generalized_jacobian, inverse_dynamics, jacobian,
+    kinematics, mass_matrix, momentum_matrix,
 };
 use wrasse_flight::ArmLaw;
 use wrasse_golden_periods::{STATES, Subject, one_arm, two_arms};
@@ -28,7 +28,7 @@ fn count<R>(name: &str, joints: usize, call: impl FnOnce() -> R) {
 fn kernels<const J: usize>(subject: &Subject<f64, J>) {
     let (robot, state) = (black_box(&subject.robot), subject.start(1).state);
     let state = black_box(&state);
-    let tool = black_box(&subject.tool);
+    let tool = black_box(&subject.setup.assignment.tool);
     let nudot = Generalized { base: SpatialVelocity::zero(), joints: [0.1; J] };
     let force = Generalized { base: SpatialForce::zero(), joints: [0.5; J] };
     let external = PerBody::filled(SpatialForce::zero());
@@ -49,8 +49,8 @@ fn kernels<const J: usize>(subject: &Subject<f64, J>) {
 /// Control periods over the first golden states.
 fn periods<const J: usize>(law: &str, subject: &Subject<f64, J>, states: u32) {
     for number in 0..states {
-        let start = subject.start(number);
-        black_box(counted(|| subject.period(black_box(&start))));
+        let mut start = subject.start(number);
+        black_box(counted(|| subject.period(black_box(&mut start))));
         println!("control_period_{law}/{J}");
     }
 }
