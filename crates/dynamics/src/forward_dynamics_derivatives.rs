@@ -47,21 +47,14 @@ pub fn forward_dynamics_derivatives<T: Real, const J: usize>(
 ) -> ForwardDynamicsDerivatives<T, J> {
     // 1. The motion that the forces cause.
     let mut taken = InverseDynamicsDerivatives::nothing(k.robot.joint_count());
-    let bodies = Bodies::new(k);
+    let mut bodies = Bodies::nothing();
+    bodies.observe(k);
     bodies.mass_matrix_into(k, &mut taken.by_acceleration);
     let M = Elimination::new(k.robot, &taken.by_acceleration);
-    let by_force = M.inverse();
+    let mut found = ForwardDynamicsDerivatives::nothing();
+    M.inverse_into(&mut found.by_force);
     let bias = bodies.project(k, &bodies.forces(k, &Generalized::default(), external));
-    let mut found = ForwardDynamicsDerivatives {
-        nudot: by_force.times(&difference(force, &bias)),
-        by_position: JointColumns::filled(SpatialVelocity::zero()),
-        by_rate: JointColumns::filled(SpatialVelocity::zero()),
-        by_base_velocity: BaseColumns {
-            base: [SpatialVelocity::zero(); 6],
-            joints: [[T::zero(); 6]; J],
-        },
-        by_force,
-    };
+    found.nudot = found.by_force.times(&difference(force, &bias));
     // 2. What more force a motion close to it would take.
     let forces = bodies.forces(k, &found.nudot, external);
     taken.differentiate(k, &bodies, &forces);
@@ -71,6 +64,21 @@ pub fn forward_dynamics_derivatives<T: Real, const J: usize>(
     let w_NB_B = k.V_NB_B(BodyId::Base).angular;
     give_way_of_base(&M, &taken.by_base_velocity, w_NB_B, &mut found.by_base_velocity);
     found
+}
+
+impl<T: Real, const J: usize> ForwardDynamicsDerivatives<T, J> {
+    /// All zero.
+    #[inline(always)]
+    fn nothing() -> Self {
+        let still = SpatialVelocity::zero();
+        Self {
+            nudot: Generalized::default(),
+            by_position: JointColumns::filled(still),
+            by_rate: JointColumns::filled(still),
+            by_base_velocity: BaseColumns { base: [still; 6], joints: [[T::zero(); 6]; J] },
+            by_force: InverseMassMatrix::nothing(),
+        }
+    }
 }
 
 #[inline(always)]
@@ -95,11 +103,12 @@ fn give_way<T: Real, const J: usize>(
     let (mut first, mut rows) = (0, Rows::zero());
     while first < joints.len() {
         // A joint changes the forces of its own arm and of the base only. The last one fills up.
-        let end = M.arm_end(first).min(first + WIDTH);
+        let arm = M.arm(first);
+        let end = arm.end.min(first + WIDTH);
         let columns: [usize; WIDTH] = array::from_fn(|c| joints[(first + c).min(end - 1)]);
         rows.set_base(columns.map(|j| F.base[j].to_array()));
-        for (row, &i) in rows.joints.iter_mut().zip(joints) {
-            *row = columns.map(|j| F.joints[i][j]);
+        for a in arm {
+            rows.joints[a] = columns.map(|j| F.joints[joints[a]][j]);
         }
         let answer = M.give_way(&rows, Some(first));
         for (c, &j) in columns.iter().enumerate() {

@@ -124,6 +124,16 @@ impl<T: Real> AddAssign for Matter<T> {
 }
 
 impl<T: Real> Matter<T> {
+    #[inline(always)]
+    fn nothing() -> Self {
+        Self {
+            mass: T::zero(),
+            first: Vec3::zero(),
+            second: Sym3::zero(),
+            flow: Vec3::zero(),
+            flow_moment: Mat3::zero(),
+        }
+    }
     /// Of one body.
     #[inline(always)]
     fn of_body(M_B_B: &SpatialInertia<T>, motion: &Motion<T>) -> Self {
@@ -247,24 +257,32 @@ pub(crate) struct Forces<T, const J: usize> {
 }
 
 impl<T: Real, const J: usize> Bodies<T, J> {
+    /// Nothing yet: made apart and then filled, so that it need not be moved.
     #[inline(always)]
-    pub(crate) fn new(k: &Kinematics<'_, T, J>) -> Self {
+    pub(crate) fn nothing() -> Self {
+        let matter = PerBody::filled(Matter::nothing());
+        let still = Motion::of_base(SpatialVelocity::zero());
+        Self { motions: PerBody::filled(still), matter, carried: matter }
+    }
+    /// As they are and move in this state.
+    #[inline(always)]
+    pub(crate) fn observe(&mut self, k: &Kinematics<'_, T, J>) {
         let base = Motion::of_base(k.V_NB_B(BodyId::Base));
-        let mut motions: PerBody<_, J> = PerBody::filled(base);
         let matter = Matter::of_body(k.robot.inertia(BodyId::Base), &base);
-        let mut matter: PerBody<_, J> = PerBody::filled(matter);
+        (self.motions.base, self.matter.base, self.carried.base) = (base, matter, matter);
         for j in k.robot.joints() {
             let joint = k.robot.joint(j);
-            let motion = motions[joint.parent].of_child(joint, &k.X_PB[j], k.state.v[j]);
-            motions.links[j] = motion;
-            matter.links[j] = Matter::of_body(k.robot.inertia(BodyId::Link(j)), &motion);
+            let parent = &self.motions[joint.parent];
+            let motion = parent.of_child(joint, &k.X_PB[j], k.state.v[j]);
+            let matter = Matter::of_body(k.robot.inertia(BodyId::Link(j)), &motion);
+            self.motions.links[j] = motion;
+            self.matter.links[j] = matter;
+            self.carried.links[j] = matter;
         }
-        let mut carried = matter;
         for j in k.robot.joints().rev() {
-            let behind = carried.links[j];
-            carried[k.robot.joint(j).parent] += behind;
+            let behind = self.carried.links[j];
+            self.carried[k.robot.joint(j).parent] += behind;
         }
-        Self { motions, matter, carried }
     }
     /// Forces that the accelerations take.
     #[inline(always)]
@@ -278,19 +296,21 @@ impl<T: Real, const J: usize> Bodies<T, J> {
             let motion = &self.motions[body];
             self.matter[body].force(&motion.V, A) - motion.X_0B.force_to_parent(&external[body])
         };
-        let mut A: PerBody<_, J> = PerBody::filled(nudot.base);
-        let mut F: PerBody<_, J> = PerBody::filled(force(BodyId::Base, &nudot.base));
+        let mut found = Forces {
+            A: PerBody::filled(nudot.base),
+            F: PerBody::filled(force(BodyId::Base, &nudot.base)),
+        };
         for j in k.robot.joints() {
             let own = &self.motions.links[j];
-            A.links[j] =
-                A[k.robot.joint(j).parent] + own.S * nudot.joints[j] + own.Sdot * k.state.v[j];
-            F.links[j] = force(BodyId::Link(j), &A.links[j]);
+            let A_P = found.A[k.robot.joint(j).parent];
+            found.A.links[j] = A_P + own.S * nudot.joints[j] + own.Sdot * k.state.v[j];
+            found.F.links[j] = force(BodyId::Link(j), &found.A.links[j]);
         }
         for j in k.robot.joints().rev() {
-            let behind = F.links[j];
-            F[k.robot.joint(j).parent] += behind;
+            let behind = found.F.links[j];
+            found.F[k.robot.joint(j).parent] += behind;
         }
-        Forces { A, F }
+        found
     }
     /// What the base and the motors feel of the forces.
     #[inline(always)]
@@ -341,7 +361,8 @@ pub fn inverse_dynamics_derivatives<T: Real, const J: usize>(
     external: &PerBody<SpatialForce<T>, J>,
 ) -> InverseDynamicsDerivatives<T, J> {
     let mut found = InverseDynamicsDerivatives::nothing(k.robot.joint_count());
-    let bodies = Bodies::new(k);
+    let mut bodies = Bodies::nothing();
+    bodies.observe(k);
     bodies.mass_matrix_into(k, &mut found.by_acceleration);
     let forces = bodies.forces(k, nudot, external);
     found.force = bodies.project(k, &forces);
@@ -404,6 +425,7 @@ impl<T: Real, const J: usize> InverseDynamicsDerivatives<T, J> {
         let (own, matter) = (&bodies.motions.links[j], &bodies.carried.links[j]);
         // Moved by joint j: what it carries, as one body.
         let inertial = self.by_acceleration.M_bj[j];
+        let twice = inertial + inertial;
         let position =
             matter.times(&Sddot[j]) + matter.coriolis(own.Sdot.angular) + own.S.cross_force(force);
         let rate = matter.times(&(own.Sdot + own.Sdot)) + matter.coriolis(own.S.angular);
@@ -418,8 +440,7 @@ impl<T: Real, const J: usize> InverseDynamicsDerivatives<T, J> {
             let below = &bodies.motions.links[i];
             self.by_position.joints[j][i] =
                 Sddot[i].power(&inertial) + below.Sdot.angular.dot(felt);
-            self.by_rate.joints[j][i] =
-                (below.Sdot + below.Sdot).power(&inertial) + below.S.angular.dot(felt);
+            self.by_rate.joints[j][i] = below.Sdot.power(&twice) + below.S.angular.dot(felt);
             self.by_position.joints[i][j] = below.S.power(&position);
             self.by_rate.joints[i][j] = below.S.power(&rate);
         }

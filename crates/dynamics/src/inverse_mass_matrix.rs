@@ -1,6 +1,7 @@
 //! The inverse of the mass matrix: accelerations per unit force.
 
 use crate::{BodyId, Generalized, GeneralizedForce, GeneralizedVelocity, MassMatrix, Robot};
+use core::ops::Range;
 use wrasse_spatial::{Real, SpatialVelocity};
 
 /// `M⁻¹` in the blocks of [`MassMatrix`]; symmetric.
@@ -28,7 +29,9 @@ pub fn inverse_mass_matrix<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     M: &MassMatrix<T, J>,
 ) -> InverseMassMatrix<T, J> {
-    Elimination::new(robot, M).inverse()
+    let mut found = InverseMassMatrix::nothing();
+    Elimination::new(robot, M).inverse_into(&mut found);
+    found
 }
 
 /// The mass matrix, eliminated: arms first, the base last. Joints stand in another order here, arm
@@ -94,7 +97,7 @@ impl<T: Real, const J: usize> Elimination<T, J> {
                 M_jj[a][b] = M.M_jj[joints[a]][joints[b]];
             }
         }
-        let held = inverse(&M_jj, count, |a| arms[a].first);
+        let held = inverse(&M_jj, count, |a| arms[a]);
         // 2. What that takes from the base, and the base with what is left.
         let columns = joints.map(|j| M.M_bj[j].to_array());
         let mut Z = [[T::zero(); 6]; J];
@@ -107,18 +110,14 @@ impl<T: Real, const J: usize> Elimination<T, J> {
                 take(&mut left[r], Z[a][r], &columns[a]);
             }
         }
-        let A_bb = inverse(&left, 6, |_| 0);
+        let A_bb = inverse(&left, 6, |_| Span { first: 0, end: 6 });
         Self { count, joints, arms, held, Z, A_bb }
     }
-    /// The whole inverse: `A_bj = -A_bb Z`, `A_jj = M_jj⁻¹ - Zᵀ A_bj`.
+    /// The whole inverse, into a place that is zero: `A_bj = -A_bb Z`, `A_jj = M_jj⁻¹ - Zᵀ A_bj`.
     #[inline(always)]
-    pub(crate) fn inverse(&self) -> InverseMassMatrix<T, J> {
-        let mut found = InverseMassMatrix {
-            count: self.count,
-            A_bb: self.A_bb.map(SpatialVelocity::from_array),
-            A_bj: [SpatialVelocity::zero(); J],
-            A_jj: [[T::zero(); J]; J],
-        };
+    pub(crate) fn inverse_into(&self, found: &mut InverseMassMatrix<T, J>) {
+        found.count = self.count;
+        found.A_bb = self.A_bb.map(SpatialVelocity::from_array);
         for a in 0..self.count {
             let j = self.joints[a];
             let mut column = [T::zero(); 6];
@@ -136,20 +135,19 @@ impl<T: Real, const J: usize> Elimination<T, J> {
                 found.A_jj[j][i] = sum;
             }
         }
-        found
     }
     /// Joint in each place.
     #[inline(always)]
     pub(crate) fn joints(&self) -> &[usize] {
         &self.joints[..self.count]
     }
-    /// Place after the last of the arm of the joint in a place.
+    /// Places of the arm of the joint in a place.
     #[inline(always)]
-    pub(crate) fn arm_end(&self, place: usize) -> usize {
-        self.arms[place].end
+    pub(crate) fn arm(&self, place: usize) -> Range<usize> {
+        self.arms[place].first..self.arms[place].end
     }
     /// `-M⁻¹ F` of some columns, rows by place. Where a place is given, the columns are zero in all
-    /// joints that are not of its arm.
+    /// joints that are not of its arm, and what stands there is not read.
     #[inline(always)]
     pub(crate) fn give_way<const W: usize>(
         &self,
@@ -219,6 +217,15 @@ fn take<T: Real, const W: usize>(row: &mut [T; W], s: T, x: &[T; W]) {
 }
 
 impl<T: Real, const J: usize> InverseMassMatrix<T, J> {
+    #[inline(always)]
+    pub(crate) fn nothing() -> Self {
+        Self {
+            count: 0,
+            A_bb: [SpatialVelocity::zero(); 6],
+            A_bj: [SpatialVelocity::zero(); J],
+            A_jj: [[T::zero(); J]; J],
+        }
+    }
     /// `M⁻¹ force`.
     #[inline(always)]
     pub fn times(&self, force: &GeneralizedForce<T, J>) -> GeneralizedVelocity<T, J> {
@@ -248,31 +255,29 @@ impl<T: Real, const J: usize> InverseMassMatrix<T, J> {
     }
 }
 
-/// Inverse of the leading `n`×`n` part of a symmetric matrix, which is zero in each row up to the
-/// given first element.
+/// Inverse of a symmetric matrix of blocks along its diagonal, the rest of which is zero; `block`
+/// gives that of each row.
 #[inline(always)]
 fn inverse<T: Real, const N: usize>(
     H: &[[T; N]; N],
     n: usize,
-    first: impl Fn(usize) -> usize,
+    block: impl Fn(usize) -> Span,
 ) -> [[T; N]; N] {
     // H = L U with U = D Lᵀ, X = L⁻¹; H⁻¹ is the sum of x xᵀ/d over the rows x of X. Whole rows,
-    // zeros too: their number is known when this is compiled.
-    let (mut U, mut X) = ([[T::zero(); N]; N], [[T::zero(); N]; N]);
-    let (mut per_pivot, mut found) = ([T::zero(); N], [[T::zero(); N]; N]);
-    for i in 0..n.min(N) {
-        let (mut u, mut x) = (H[i], [T::zero(); N]);
-        x[i] = T::one();
-        for k in first(i)..i {
-            let l = u[k] * per_pivot[k];
-            take(&mut u, l, &U[k]);
-            take(&mut x, l, &X[k]);
+    // zeros too: their length is known when this is compiled.
+    let (mut U, mut X, mut found) = (*H, [[T::zero(); N]; N], [[T::zero(); N]; N]);
+    for k in 0..n.min(N) {
+        X[k][k] = T::one();
+        let (u, x, per_pivot) = (U[k], X[k], T::one() / U[k][k]);
+        for i in k + 1..block(k).end.min(N) {
+            let l = U[i][k] * per_pivot;
+            take(&mut U[i], l, &u);
+            take(&mut X[i], l, &x);
         }
-        per_pivot[i] = T::one() / u[i];
-        for r in first(i)..=i {
-            take(&mut found[r], -(x[r] * per_pivot[i]), &x);
+        let reached = block(k).first..=k;
+        for (row, s) in found[reached.clone()].iter_mut().zip(&x[reached]) {
+            take(row, -(*s * per_pivot), &x);
         }
-        (U[i], X[i]) = (u, x);
     }
     found
 }
