@@ -37,8 +37,7 @@ impl Histogram<'_> {
     /// The drawing; nothing of no values.
     pub(crate) fn svg(&self) -> Option<String> {
         let bars = self.bars()?;
-        let (width, height) =
-            (FIELD[0] + MARGIN[0] + MARGIN[1], FIELD[1] + 2.6 * MARGIN[1] + MARGIN[0]);
+        let (width, height) = (FIELD[0] + MARGIN[0] + MARGIN[1], top() + FIELD[1] + 44.0);
         let mut svg = format!(
             "<svg class=\"histogram\" viewBox=\"0 0 {width:.0} {height:.0}\" role=\"img\" \
              aria-label=\"how the values are spread\">\n"
@@ -67,17 +66,23 @@ impl Histogram<'_> {
         let largest = self.values.iter().copied().reduce(f64::max)?;
         // Values that are all alike get some room beside them.
         let span = if largest > least { largest - least } else { least.abs().max(1e-12) * 0.1 };
-        let first = if largest > least { least } else { least - 0.5 * span };
+        let mut first = if largest > least { least } else { least - 0.5 * span };
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few")]
         let count = (libm::sqrt(2.0 * self.values.len() as f64) as usize).clamp(5, BARS);
         let width = span / count as f64;
+        let mut count = count;
+        if (least..largest).contains(&self.limit) {
+            // No bar reaches over the limit.
+            first = self.limit - libm::ceil((self.limit - least) / width) * width;
+            count += 1;
+        }
         let mut counts = vec![0; count];
         for value in &self.values {
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a place")]
             let place = ((value - first) / width) as usize;
             counts[place.min(count - 1)] += 1;
         }
-        let (mut low, mut high) = (first, first + span);
+        let (mut low, mut high) = (first, first + width * count as f64);
         if self.is_near(first, span) {
             (low, high) = (low.min(self.limit), high.max(self.limit));
         }
@@ -194,7 +199,11 @@ mod tests {
         let svg = drawn.svg().expect("there are values");
         let (holds, fails) =
             (svg.matches("class=\"holds\"").count(), svg.matches("class=\"fails\"").count());
-        assert_eq!(holds + fails, bars.counts.len());
+        let filled = bars.counts.iter().filter(|count| **count > 0).count();
+        assert_eq!(holds + fails, filled);
+        // 151 hold, 49 fail, and a bar is 0.2 / 20 wide: the limit is where one ends.
+        let place = (0.15 - bars.first) / bars.width;
+        assert!((place - place.round()).abs() < 1e-9, "{place}");
         assert_eq!(fails, 5, "a quarter of 20 bars: {svg}");
         assert!(svg.contains("limit 0.15 mm<"));
     }
@@ -217,6 +226,6 @@ mod tests {
     #[test]
     fn marks_are_round_and_inside() {
         assert_eq!(marks(0.013, 0.021), [0.014, 0.016, 0.018, 0.02]);
-        assert_eq!(marks(-1e-6, 9e-6).len(), 6);
+        assert_eq!(marks(-1e-6, 9e-6), [0.0, 2e-6, 4e-6, 6e-6, 8e-6]);
     }
 }

@@ -81,7 +81,7 @@ pub struct RequirementSweep {
     pub values: Option<Percentiles>,
     /// The worst samples, the worst first.
     pub worst: Vec<WorstSample>,
-    /// What was drawn that the value goes with, the strongest first.
+    /// What was drawn that the value goes with beyond what chance explains, the strongest first.
     pub influences: Vec<Influence>,
 }
 

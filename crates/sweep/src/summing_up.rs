@@ -14,6 +14,10 @@ const WORST: usize = 5;
 /// Influences that are told of each requirement.
 const INFLUENCES: usize = 3;
 
+/// Standard deviations of a rank correlation of things that have nothing to do with each other, 1/√(n - 1),
+/// below which none is told.
+const CHANCE: f64 = 3.0;
+
 /// What all samples together say; rows in order of case, then sample.
 pub(crate) fn sum_up(asked: &Sweep<'_>, rows: Vec<Row>) -> SweepOutcome {
     let mission = asked.mission;
@@ -84,7 +88,8 @@ fn of_requirement(
             .iter()
             .filter_map(|row| row.values[i].map(|value| (row.deviations[k], value)))
             .collect();
-        let found = rank_correlation(&pairs);
+        let by_chance = CHANCE / (pairs.len() as f64 - 1.0).max(1.0).sqrt();
+        let found = rank_correlation(&pairs).filter(|found| found.abs() > by_chance);
         influences.extend(
             found
                 .map(|rank_correlation| Influence { quantity: quantity.clone(), rank_correlation }),

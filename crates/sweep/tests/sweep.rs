@@ -138,8 +138,7 @@ fn cases_fly_the_same_draws_and_the_findings_are_those_of_the_rows() {
     assert!(error.holds.low < error.holds.share() && error.holds.share() < error.holds.high);
     assert_eq!(exact.ends.len(), 1);
     assert_eq!((exact.ends[0].end.as_str(), exact.ends[0].count), ("completed", 16));
-    // An error that the feedforward does not know of comes of where the centre of mass is.
-    assert!(error.influences[0].rank_correlation.abs() > 0.3, "{:?}", error.influences);
+    assert!(error.influences.iter().all(|i| i.rank_correlation.abs() > 3.0 / 15.0_f64.sqrt()));
 }
 
 #[test]
