@@ -46,25 +46,60 @@ pub(crate) struct Carried<T, const J: usize> {
 }
 
 impl<T: Real, const J: usize> Carried<T, J> {
-    /// From what each body alone contributes.
+    /// In a posture, as far as the law asks for it.
     #[inline(always)]
-    fn sum(
-        robot: &Robot<T, J>,
-        base: SpatialInertia<T>,
-        alone: impl Fn(usize) -> SpatialInertia<T>,
-    ) -> Self {
+    pub(crate) fn new(law: ArmLaw, robot: &Robot<T, J>, posture: &Posture<T, J>) -> Self {
         let none = [SpatialInertia::zero(); J];
-        let mut carried = Self { alone: none, links: none, base };
+        let mut carried = Self { alone: none, links: none, base: *robot.inertia(BodyId::Base) };
+        for j in robot.joints() {
+            carried.alone[j] = match law {
+                ArmLaw::Terrestrial => SpatialInertia::zero(),
+                ArmLaw::AttitudeHeld => {
+                    let (mass, first_moment) = posture.first_moment(robot, j);
+                    SpatialInertia { mass, first_moment, rotational: Sym3::zero() }
+                }
+                ArmLaw::FreeFloating => posture.inertia(robot, j),
+            };
+        }
+        carried.add_up(law, robot);
+        carried
+    }
+    /// How that changes while the links move with the twists `V` relative to the base.
+    #[inline(always)]
+    fn rate(&self, law: ArmLaw, robot: &Robot<T, J>, V: &[SpatialVelocity<T>; J]) -> Self {
+        let none = [SpatialInertia::zero(); J];
+        let mut rate = Self { alone: none, links: none, base: SpatialInertia::zero() };
+        for j in robot.joints() {
+            let M = &self.alone[j];
+            rate.alone[j] = match law {
+                ArmLaw::FreeFloating => inertia_rate(M, &V[j]),
+                _ => SpatialInertia {
+                    first_moment: V[j].linear * M.mass + V[j].angular.cross(M.first_moment),
+                    ..SpatialInertia::zero()
+                },
+            };
+        }
+        rate.add_up(law, robot);
+        rate
+    }
+    /// Tip to base: what each link adds to all that its joint carries.
+    #[inline(always)]
+    fn add_up(&mut self, law: ArmLaw, robot: &Robot<T, J>) {
+        let add = |to: &mut SpatialInertia<T>, M: &SpatialInertia<T>| {
+            to.mass += M.mass;
+            to.first_moment += M.first_moment;
+            if law == ArmLaw::FreeFloating {
+                to.rotational += M.rotational;
+            }
+        };
         for j in robot.joints().rev() {
-            carried.alone[j] = alone(j);
-            let own = carried.links[j] + carried.alone[j];
-            carried.links[j] = own;
+            add(&mut self.links[j], &self.alone[j]);
+            let own = self.links[j];
             match robot.joint(j).parent {
-                BodyId::Link(p) if p < J => carried.links[p] += own,
-                _ => carried.base += own,
+                BodyId::Link(p) if p < J => add(&mut self.links[p], &own),
+                _ => add(&mut self.base, &own),
             }
         }
-        carried
     }
 }
 
@@ -75,39 +110,29 @@ pub(crate) fn base_answer<T: Real, const J: usize>(
     law: ArmLaw,
     robot: &Robot<T, J>,
     posture: &Posture<T, J>,
+    carried: &Carried<T, J>,
     h_Scm_B: &SpatialMomentum<T>,
-) -> (BaseAnswer<T, J>, Carried<T, J>) {
-    let base = *robot.inertia(BodyId::Base);
+) -> BaseAnswer<T, J> {
     let mut answer = BaseAnswer::none();
-    let carried = match law {
-        ArmLaw::Terrestrial => {
-            let none = [SpatialInertia::zero(); J];
-            Carried { alone: none, links: none, base }
-        }
+    match law {
+        ArmLaw::Terrestrial => {}
         ArmLaw::AttitudeHeld => {
-            let carried = Carried::sum(robot, base, |j| {
-                let (mass, first_moment) = posture.first_moment(robot, j);
-                SpatialInertia { mass, first_moment, rotational: Sym3::zero() }
-            });
             let per_mass = T::one() / carried.base.mass;
             for j in robot.joints() {
                 let push = force_of_rate(&carried.links[j], &posture.S[j]);
                 answer.per_rate[j].linear = push * -per_mass;
             }
             answer.drift.linear = h_Scm_B.force * per_mass;
-            carried
         }
         ArmLaw::FreeFloating => {
-            let carried = Carried::sum(robot, base, |j| posture.inertia(robot, j));
             let mobility = Mobility::of(&carried.base);
             for j in robot.joints() {
                 answer.per_rate[j] = -mobility.times(&(carried.links[j] * posture.S[j]));
             }
             answer.drift = mobility.times(&h_Scm_B.about(-mobility.p_cm));
-            carried
         }
-    };
-    (answer, carried)
+    }
+    answer
 }
 
 /// Linear momentum for unit rate of a joint with all that it carries.
@@ -131,15 +156,10 @@ pub(crate) fn base_answer_rate<T: Real, const J: usize>(
     let mut rate = BaseAnswer::none();
     // The momentum stands still in inertial axes.
     let hdot = SpatialForce::new(h_Scm_B.torque.cross(w_NB_B), h_Scm_B.force.cross(w_NB_B));
-    let still = SpatialInertia::zero();
+    let changing = carried.rate(law, robot, V);
     match law {
         ArmLaw::Terrestrial => {}
         ArmLaw::AttitudeHeld => {
-            let changing = Carried::sum(robot, still, |j| {
-                let M = &carried.alone[j];
-                let first_moment = V[j].linear * M.mass + V[j].angular.cross(M.first_moment);
-                SpatialInertia { first_moment, ..SpatialInertia::zero() }
-            });
             let per_mass = T::one() / carried.base.mass;
             for j in robot.joints() {
                 let push = force_of_rate(&carried.links[j], &V[j].cross(&posture.S[j]))
@@ -149,7 +169,6 @@ pub(crate) fn base_answer_rate<T: Real, const J: usize>(
             rate.drift.linear = hdot.force * per_mass;
         }
         ArmLaw::FreeFloating => {
-            let changing = Carried::sum(robot, still, |j| inertia_rate(&carried.alone[j], &V[j]));
             let mobility = Mobility::of(&carried.base);
             for j in robot.joints() {
                 let S = posture.S[j];

@@ -2,6 +2,7 @@
 
 use crate::answered_motion::{on_base, recoil};
 use crate::law::{ArmLaw, Tuning};
+use crate::newton_euler::Swing;
 use crate::posture::Posture;
 use wrasse_dynamics::{BodyId, Robot, State};
 use wrasse_hardware::SetPoint;
@@ -23,22 +24,37 @@ pub fn computed_torque<T: Real, const J: usize>(
     now: &[SetPoint<T>; J],
     acceleration: &[T; J],
 ) -> [T; J] {
-    let V_NB_B = match law {
-        ArmLaw::Terrestrial => SpatialVelocity::zero(),
-        ArmLaw::AttitudeHeld => SpatialVelocity::new(Vec3::zero(), sensed.V_NB_B.linear),
-        ArmLaw::FreeFloating => sensed.V_NB_B,
-    };
     let stiffness = tuning.joint_bandwidth * tuning.joint_bandwidth;
     let damping = T::from_f64(2.0) * tuning.joint_damping * tuning.joint_bandwidth;
-    let mut qddot = *acceleration;
+    let mut joints = *now;
     for j in robot.joints() {
-        qddot[j] +=
-            damping * (now[j].rate - sensed.v[j]) + stiffness * (now[j].position - sensed.q[j]);
+        let (position, rate) = (sensed.q[j], sensed.v[j]);
+        let back = damping * (now[j].rate - rate) + stiffness * (now[j].position - position);
+        joints[j] = SetPoint { position, rate, acceleration: acceleration[j] + back };
     }
-    let posture = Posture::new(robot, &sensed.q);
+    match law {
+        ArmLaw::Terrestrial => Swing::new(robot, &joints).effort(robot, Vec3::zero()),
+        ArmLaw::AttitudeHeld => {
+            // Where a base that does not turn goes has no part in it, only that it gives way.
+            let swing = Swing::new(robot, &joints);
+            swing.effort(robot, swing.base.F.force * (-T::one() / swing.base.mass))
+        }
+        ArmLaw::FreeFloating => on_floating_base(robot, &sensed.V_NB_B, &joints),
+    }
+}
+
+/// The forces of the motion on a base that moves on steadily, and those of its recoil.
+#[inline(always)]
+fn on_floating_base<T: Real, const J: usize>(
+    robot: &Robot<T, J>,
+    V_NB_B: &SpatialVelocity<T>,
+    joints: &[SetPoint<T>; J],
+) -> [T; J] {
+    let posture = Posture::new(robot, &joints.map(|s| s.position));
     let matter = posture.matter(robot);
-    let mut F = posture.forces(robot, &matter, &V_NB_B, &sensed.v, &qddot);
-    let A_NB_B = recoil(law, &matter.whole, &on_base(robot, &V_NB_B, &F));
+    let (qdot, qddot) = (joints.map(|s| s.rate), joints.map(|s| s.acceleration));
+    let mut F = posture.forces(robot, &matter, V_NB_B, &qdot, &qddot);
+    let A_NB_B = recoil(ArmLaw::FreeFloating, &matter.whole, &on_base(robot, V_NB_B, &F));
     let mut effort = [T::zero(); J];
     for j in robot.joints().rev() {
         // Tip to base: the recoil's part, what the motor feels, and all of it to the parent.

@@ -7,16 +7,17 @@ use crate::answered_motion::{answered_motion_in, answered_twist, momentum_of_rat
 use crate::computer::Setup;
 use crate::door::Axes;
 use crate::law::Measurement;
+use crate::newton_euler::total_momentum;
 use crate::period_command::{Told, told};
-use crate::posture::{Matter, Posture};
+use crate::posture::Posture;
 use crate::resolved_motion::{
     Assignment, Belief, JointUse, Resolved, ResolvedMotion, WantedMotion, resolved_motion_in,
 };
 use crate::trajectory::{JointSetPoint, ToolMotion};
-use wrasse_dynamics::{BodyId, Robot, State};
+use wrasse_dynamics::{Robot, State};
 use wrasse_hardware::SetPoint;
 use wrasse_spatial::{
-    Mat3, Pose, Quat, Real, SpatialForce, SpatialMomentum, SpatialVelocity, Vec3,
+    Mat3, Pose, Quat, Real, SpatialForce, SpatialInertia, SpatialMomentum, SpatialVelocity, Vec3,
 };
 
 /// What is asked of the arm at the end of a period.
@@ -144,8 +145,8 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             self.now[j] = SetPoint { position: sensed.q[j], rate: sensed.v[j], ..self.now[j] };
         }
         let still = [T::zero(); J];
-        let posture = self.answer(robot, setup, &sensed.v, &still).posture;
-        self.rest_at(setup, &posture);
+        let (_, X_BE) = self.answer(robot, setup, &sensed.v, &still);
+        self.reference = at_rest(self.belief.X_NB * X_BE);
     }
 
     /// Second half: follow what is asked.
@@ -165,7 +166,7 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         self.correct_base(&quat_NB, (&from, &began), period);
         // The joints are not quite where they were when the base's answer was worked out.
         let (law, h_B) = (setup.assignment.law, self.belief.h_Scm_B());
-        let whole = ending.matter.whole;
+        let whole = ending.whole;
         self.motion.rate.V_NB_B = answered_twist(law, &whole, &h_B, &ending.h_links);
         let now = self.now;
         for j in robot.joints() {
@@ -209,7 +210,7 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         setup: &Setup<T, J>,
         asked: &Asked<T, J>,
         began: (&Belief<T, J>, &ResolvedMotion<T, J>),
-    ) -> Ending<T, J> {
+    ) -> Ending<T> {
         let still = [T::zero(); J];
         match asked {
             Asked::Tool { reference, axes, gain, gain_rate } => {
@@ -217,7 +218,11 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
                 let joints = JointUse { gain: *gain, gain_rate: *gain_rate, ..setup.joints };
                 self.follow_tool(robot, setup, &joints);
                 self.correct_joints(robot, began, setup.tuning.period);
-                Ending::new(robot, &self.belief.q, &self.motion.rate.qdot)
+                let (law, qdot) = (setup.assignment.law, &self.motion.rate.qdot);
+                let posture = Posture::new(robot, &self.belief.q);
+                let matter = posture.matter(robot);
+                let h_links = momentum_of_rates(robot, law, &posture, &matter, qdot);
+                Ending { whole: matter.whole, h_links }
             }
             Asked::Joints(at) => {
                 self.belief.q = at.q;
@@ -226,11 +231,11 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             Asked::Rates { qdot, qddot } => self.answer_and_rest(robot, setup, qdot, qddot),
             Asked::Still => {
                 self.belief.q = self.now.map(|s| s.position);
-                self.answer(robot, setup, &still, &still)
+                self.answer(robot, setup, &still, &still).0
             }
             Asked::Coast => {
                 let rates = self.motion.rate.qdot;
-                self.answer(robot, setup, &rates, &still)
+                self.answer(robot, setup, &rates, &still).0
             }
         }
     }
@@ -307,7 +312,7 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         self.belief.X_NB = moved_on(&from.X_NB, quat_NB, &mean, period);
     }
 
-    /// The base answers joint motion that is given.
+    /// The base answers joint motion that is given; and the pose of the tool in the base.
     #[inline(always)]
     fn answer(
         &mut self,
@@ -315,12 +320,14 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         setup: &Setup<T, J>,
         qdot: &[T; J],
         qddot: &[T; J],
-    ) -> Ending<T, J> {
-        let ending = Ending::new(robot, &self.belief.q, qdot);
-        let at = (&ending.posture, &ending.matter, &ending.h_links);
+    ) -> (Ending<T>, Pose<T>) {
         let law = setup.assignment.law;
+        let posture = Posture::new(robot, &self.belief.q);
+        let matter = posture.matter(robot);
+        let h_links = momentum_of_rates(robot, law, &posture, &matter, qdot);
+        let at = (&posture, &matter, &h_links);
         self.motion = answered_motion_in(robot, law, at, &self.belief, qdot, qddot);
-        ending
+        (Ending { whole: matter.whole, h_links }, posture.pose(&setup.assignment.tool))
     }
 
     /// The same, and the tool's reference stays where that brings it.
@@ -331,35 +338,20 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         setup: &Setup<T, J>,
         qdot: &[T; J],
         qddot: &[T; J],
-    ) -> Ending<T, J> {
-        let ending = self.answer(robot, setup, qdot, qddot);
+    ) -> Ending<T> {
+        let (ending, X_BE) = self.answer(robot, setup, qdot, qddot);
         self.axes = Axes::Inertial;
-        self.rest_at(setup, &ending.posture);
+        self.reference = at_rest(self.belief.X_NB * X_BE);
         ending
     }
-
-    #[inline(always)]
-    fn rest_at(&mut self, setup: &Setup<T, J>, posture: &Posture<T, J>) {
-        self.reference = at_rest(self.belief.X_NB * posture.pose(&setup.assignment.tool));
-    }
 }
 
-/// Where a period ends.
-struct Ending<T, const J: usize> {
-    posture: Posture<T, J>,
-    matter: Matter<T, J>,
+/// What the base answers at the end of a period.
+struct Ending<T> {
+    /// Inertia of the whole system, joints locked.
+    whole: SpatialInertia<T>,
     /// Momentum of the links relative to the base, about its origin.
     h_links: SpatialMomentum<T>,
-}
-
-impl<T: Real, const J: usize> Ending<T, J> {
-    #[inline(always)]
-    fn new(robot: &Robot<T, J>, q: &[T; J], qdot: &[T; J]) -> Self {
-        let posture = Posture::new(robot, q);
-        let matter = posture.matter(robot);
-        let h_links = momentum_of_rates(robot, &posture, &matter, qdot);
-        Self { posture, matter, h_links }
-    }
 }
 
 /// A tool that stays where it is.
@@ -373,11 +365,8 @@ pub(crate) fn momentum_of<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     state: &State<T, J>,
 ) -> SpatialMomentum<T> {
-    let posture = Posture::new(robot, &state.q);
-    let matter = posture.matter(robot);
-    let h_links = matter.momentum(robot, &posture.twists(robot, &state.V_NB_B, &state.v));
-    let h_Bo = *robot.inertia(BodyId::Base) * state.V_NB_B + h_links;
-    let h = h_Bo.about(matter.whole.centre_of_mass());
+    let sum = total_momentum(robot, &state.V_NB_B, &state.q, &state.v);
+    let h = sum.F.about(sum.first_moment * (T::one() / sum.mass));
     let R_NB = &state.X_NB.rotation;
     SpatialMomentum::new(*R_NB * h.torque, *R_NB * h.force)
 }

@@ -1,8 +1,7 @@
 //! The arm's reaction on the base, known before it is felt.
 
-use crate::answered_motion::on_base;
 use crate::law::Feedforward;
-use crate::posture::Posture;
+use crate::newton_euler::{Sum, Swing};
 use wrasse_dynamics::{
     BodyId, Generalized, PerBody, PrintedReaction, Robot, State, inverse_dynamics, kinematics,
     printed_reaction,
@@ -34,13 +33,8 @@ pub fn feedforward_torque<T: Real, const J: usize>(
 
 #[inline(always)]
 fn exact<T: Real, const J: usize>(robot: &Robot<T, J>, joints: &[SetPoint<T>; J]) -> Vec3<T> {
-    let posture = Posture::new(robot, &joints.map(|s| s.position));
-    let (qdot, qddot) = (joints.map(|s| s.rate), joints.map(|s| s.acceleration));
-    let matter = posture.matter(robot);
-    let at_rest = SpatialVelocity::zero();
-    let bolted = on_base(robot, &at_rest, &posture.forces(robot, &matter, &at_rest, &qdot, &qddot));
-    let recoil = bolted.force * (-T::one() / matter.whole.mass);
-    bolted.torque + matter.whole.first_moment.cross(recoil)
+    let Sum { F, mass, first_moment } = Swing::new(robot, joints).base;
+    F.torque + first_moment.cross(F.force * (-T::one() / mass))
 }
 
 fn printed<T: Real, const J: usize>(

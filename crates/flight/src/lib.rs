@@ -23,6 +23,7 @@ mod joint_estimator;
 mod law;
 mod mobility;
 mod navigation;
+mod newton_euler;
 mod period_command;
 mod phase;
 mod posture;

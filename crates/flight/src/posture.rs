@@ -2,9 +2,7 @@
 //! origin Bo, in base axes, so that what several bodies do is a plain sum.
 
 use wrasse_dynamics::{BodyId, Frame, JointKind, Robot};
-use wrasse_spatial::{
-    Pose, Real, SpatialForce, SpatialInertia, SpatialMomentum, SpatialVelocity, Sym3, Vec3,
-};
+use wrasse_spatial::{Pose, Real, SpatialForce, SpatialInertia, SpatialVelocity, Sym3, Vec3};
 
 /// Poses of the links in the base, and the twist of each for unit rate of its joint.
 #[derive(Debug, Clone, Copy)]
@@ -124,22 +122,6 @@ fn force_of<T: Real>(
     A: &SpatialVelocity<T>,
 ) -> SpatialForce<T> {
     *M * *A + V.cross_force(&(*M * *V))
-}
-
-impl<T: Real, const J: usize> Matter<T, J> {
-    /// Momentum of the links about Bo (N·m·s, N·s), moving with these twists.
-    #[inline(always)]
-    pub(crate) fn momentum(
-        &self,
-        robot: &Robot<T, J>,
-        V: &[SpatialVelocity<T>; J],
-    ) -> SpatialMomentum<T> {
-        let mut h = SpatialMomentum::zero();
-        for j in robot.joints() {
-            h += self.links[j] * V[j];
-        }
-        h
-    }
 }
 
 /// What belongs to a body: the base's, or that of the link.

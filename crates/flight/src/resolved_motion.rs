@@ -92,7 +92,7 @@ impl<T: Real, const J: usize> Belief<T, J> {
 
 /// The tool, and the law's Jacobian in one posture; about the base's origin, in base axes, where the
 /// attitude of the base changes nothing.
-struct LawJacobian<T, const J: usize> {
+struct LawJacobian<'a, T, const J: usize> {
     p_BE: Vec3<T>,
     /// Whether a joint carries the tool.
     carries: [bool; J],
@@ -100,24 +100,21 @@ struct LawJacobian<T, const J: usize> {
     columns: [SpatialVelocity<T>; J],
     /// Twist that no joint causes.
     drift: SpatialVelocity<T>,
-    h_Scm_B: SpatialMomentum<T>,
-    answer: BaseAnswer<T, J>,
-    carried: Carried<T, J>,
+    answer: &'a BaseAnswer<T, J>,
 }
 
-impl<T: Real, const J: usize> LawJacobian<T, J> {
+impl<'a, T: Real, const J: usize> LawJacobian<'a, T, J> {
     #[inline(always)]
     fn new(
         robot: &Robot<T, J>,
         to: &Assignment<T>,
         posture: &Posture<T, J>,
-        h_Scm_B: SpatialMomentum<T>,
+        answer: &'a BaseAnswer<T, J>,
     ) -> Self {
-        let (answer, carried) = base_answer(to.law, robot, posture, &h_Scm_B);
         let p_BE = posture.pose(&to.tool).translation;
         let (columns, drift) = ([SpatialVelocity::zero(); J], SpatialVelocity::zero());
         let carries = carrying(robot, to.tool.body);
-        let mut law = Self { p_BE, carries, columns, drift, h_Scm_B, answer, carried };
+        let mut law = Self { p_BE, carries, columns, drift, answer };
         law.columns = law.total(robot, to, &posture.S, &law.answer.per_rate);
         if to.axes == Axes::Inertial {
             law.drift = law.answer.drift;
@@ -182,7 +179,9 @@ pub fn task_jacobian<T: Real, const J: usize>(
     belief: &Belief<T, J>,
 ) -> [SpatialVelocity<T>; J] {
     let posture = Posture::new(robot, &belief.q);
-    let law = LawJacobian::new(robot, to, &posture, belief.h_Scm_B());
+    let carried = Carried::new(to.law, robot, &posture);
+    let answer = base_answer(to.law, robot, &posture, &carried, &belief.h_Scm_B());
+    let law = LawJacobian::new(robot, to, &posture, &answer);
     let R = match to.axes {
         Axes::Inertial => belief.X_NB.rotation,
         Axes::Base => Mat3::identity(),
@@ -212,7 +211,9 @@ pub fn joint_rates<T: Real, const J: usize>(
     joints: &JointUse<T, J>,
 ) -> Resolved<T, J> {
     let posture = Posture::new(robot, &belief.q);
-    let law = LawJacobian::new(robot, to, &posture, belief.h_Scm_B());
+    let carried = Carried::new(to.law, robot, &posture);
+    let answer = base_answer(to.law, robot, &posture, &carried, &belief.h_Scm_B());
+    let law = LawJacobian::new(robot, to, &posture, &answer);
     Solved::new(robot, to, belief, &law, V_NE, joints).rate
 }
 
@@ -236,7 +237,7 @@ impl<T: Real, const J: usize> Solved<T, J> {
         robot: &Robot<T, J>,
         to: &Assignment<T>,
         belief: &Belief<T, J>,
-        law: &LawJacobian<T, J>,
+        law: &LawJacobian<'_, T, J>,
         V_NE: &SpatialVelocity<T>,
         joints: &JointUse<T, J>,
     ) -> Self {
@@ -324,20 +325,16 @@ pub(crate) fn resolved_motion_in<T: Real, const J: usize>(
     wanted: &WantedMotion<T>,
     joints: &JointUse<T, J>,
 ) -> ResolvedMotion<T, J> {
-    let law = LawJacobian::new(robot, to, posture, belief.h_Scm_B());
+    let (law_of_base, h_Scm_B) = (to.law, belief.h_Scm_B());
+    let carried = Carried::new(law_of_base, robot, posture);
+    let answer = base_answer(law_of_base, robot, posture, &carried, &h_Scm_B);
+    let law = LawJacobian::new(robot, to, posture, &answer);
     let solved = Solved::new(robot, to, belief, &law, &wanted.V_NE, joints);
     let rate = solved.rate;
     let w_NB_B = rate.V_NB_B.angular;
     let V = posture.twists(robot, &SpatialVelocity::zero(), &rate.qdot);
-    let changing = base_answer_rate(
-        to.law,
-        robot,
-        posture,
-        (&law.answer, &law.carried),
-        &V,
-        &law.h_Scm_B,
-        w_NB_B,
-    );
+    let changing =
+        base_answer_rate(law_of_base, robot, posture, (&answer, &carried), &V, &h_Scm_B, w_NB_B);
     let rows = row_rates(robot, to, posture, &law, &changing, &V);
     let mut Vdot = in_base_axes(to, belief, &wanted.Vdot_NE);
     if to.axes == Axes::Inertial {
@@ -369,7 +366,7 @@ fn row_rates<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     to: &Assignment<T>,
     posture: &Posture<T, J>,
-    law: &LawJacobian<T, J>,
+    law: &LawJacobian<'_, T, J>,
     changing: &BaseAnswer<T, J>,
     V: &[SpatialVelocity<T>; J],
 ) -> RowRates<T, J> {
