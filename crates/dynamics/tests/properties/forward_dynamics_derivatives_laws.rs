@@ -6,12 +6,13 @@ use crate::inverse_dynamics_derivatives_laws::{
 use crate::measure::{dense, for_every_robot, gap, size};
 use crate::random_robot::{JOINTS, Scene};
 use nalgebra::DMatrix;
+use std::array;
 use wrasse_dynamics::{
-    ForwardDynamicsDerivatives, Generalized, GeneralizedForce, GeneralizedVelocity, State,
+    ForwardDynamicsDerivatives, Generalized, GeneralizedForce, GeneralizedVelocity, PerBody, State,
     forward_dynamics, forward_dynamics_derivatives, inverse_dynamics_derivatives,
     inverse_mass_matrix, kinematics, mass_matrix,
 };
-use wrasse_spatial::{Dual, Real, SpatialForce, SpatialVelocity};
+use wrasse_spatial::{Dual, Lanes, Pose, Real, SpatialForce, SpatialVelocity};
 
 type D = Dual<f64>;
 type DualForce = GeneralizedForce<D, JOINTS>;
@@ -153,5 +154,47 @@ fn the_accelerations_give_way_to_all_the_force_that_a_change_asks_for() {
 fn the_accelerations_do_not_change_with_the_pose_of_the_base() {
     for_every_robot(0.0, |s| {
         (0..6).fold(0.0, |m: f64, c| m.max(size(&by_duals(s, |x, _| displace(&mut x.X_NB, c)))))
+    });
+}
+
+/// Two states side by side: the second has other positions and rates.
+fn two_at_once(s: &Scene) -> ForwardDynamicsDerivatives<Lanes<2>, JOINTS> {
+    type L = Lanes<2>;
+    let beside = |a: f64, b: f64| L::from_fn(|lane| [a, b][lane]);
+    let joints = |a: &[f64; JOINTS]| array::from_fn(|j| beside(a[j], 0.7 * a[j] - 0.1));
+    let wrench = |F: &SpatialForce<f64>| SpatialForce::from_array(F.to_array().map(L::from_f64));
+    let robot = s.robot.cast();
+    let state = State {
+        X_NB: Pose::from_f64(&s.state.X_NB),
+        V_NB_B: SpatialVelocity::from_array(s.state.V_NB_B.to_array().map(|x| beside(x, -x))),
+        q: joints(&s.state.q),
+        v: joints(&s.state.v),
+    };
+    let external = PerBody {
+        base: wrench(&s.external.base),
+        links: array::from_fn(|j| wrench(&s.external.links[j])),
+    };
+    let force =
+        Generalized { base: wrench(&force(s).base), joints: force(s).joints.map(L::from_f64) };
+    forward_dynamics_derivatives(&kinematics(&robot, &state), &force, &external)
+}
+
+/// Nothing is decided on a value, so a state gives the same numbers beside another. Measured 0.
+#[test]
+fn derivatives_in_a_lane_are_exactly_those_alone() {
+    for_every_robot(0.0, |s| {
+        let (alone, both) = (found(s), two_at_once(s));
+        let lane = |rows: [[Lanes<2>; JOINTS]; JOINTS]| rows.map(|row| row.map(|x| x.lane(0)));
+        let six = |columns: [SpatialVelocity<Lanes<2>>; JOINTS]| {
+            columns.map(|V| V.to_array().map(|x| x.lane(0)))
+        };
+        let pairs = [
+            (lane(both.by_position.joints), alone.by_position.joints),
+            (lane(both.by_rate.joints), alone.by_rate.joints),
+            (lane(both.by_force.A_jj), alone.by_force.A_jj),
+        ];
+        let joints = pairs.iter().fold(0.0, |m: f64, (a, b)| m.max(gap(a, b)));
+        let base = alone.by_rate.base.map(SpatialVelocity::to_array);
+        joints.max(gap(&six(both.by_rate.base), &base))
     });
 }
