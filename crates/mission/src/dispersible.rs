@@ -23,11 +23,12 @@ pub(crate) struct Dispersible {
 
 /// What is known of a case when its dispersions are read.
 pub(crate) struct Nominal<'a> {
-    pub(crate) vehicle: &'a Vehicle,
-    pub(crate) start: &'a State<f64, JOINTS>,
-    pub(crate) payloads: &'a [PayloadCase],
-    pub(crate) sensors: Option<Sensors<f64>>,
-    pub(crate) base: BaseAttitude,
+    vehicle: &'a Vehicle,
+    start: &'a State<f64, JOINTS>,
+    payloads: &'a [PayloadCase],
+    /// As they are fitted: what is drawn of them changes nothing where they are not used.
+    sensors: &'a Sensors<f64>,
+    base: BaseAttitude,
 }
 
 /// How the names are made up, for those who look for one.
@@ -45,7 +46,17 @@ const PERCENT: (f64, f64) = (-100.0 * NEARLY, f64::INFINITY);
 /// A little less than one: what is taken away leaves something.
 const NEARLY: f64 = 1.0 - 1e-9;
 
-impl Nominal<'_> {
+impl<'a> Nominal<'a> {
+    /// A case with this vehicle, start and what becomes of its base, payloads and fitted sensors.
+    pub(crate) fn of(
+        vehicle: &'a Vehicle,
+        (start, base): (&'a State<f64, JOINTS>, BaseAttitude),
+        payloads: &'a [PayloadCase],
+        sensors: &'a Sensors<f64>,
+    ) -> Self {
+        Self { vehicle, start, payloads, sensors, base }
+    }
+
     /// All numbers of the case that can be dispersed.
     pub(crate) fn dispersible(&self) -> Vec<Dispersible> {
         let mut all = vec![];
@@ -131,7 +142,7 @@ impl Nominal<'_> {
     }
 
     fn sensors(&self, all: &mut Vec<Dispersible>) {
-        let Some(sensors) = self.sensors else { return };
+        let sensors = self.sensors;
         let mut share = |name: &str, target| {
             let why = "less than nothing cannot be left".into();
             let (name, scale, room) = (name.into(), 0.01, PERCENT);

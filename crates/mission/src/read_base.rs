@@ -52,8 +52,11 @@ fn given_equipment(r: &mut Reading<'_>, file: &MissionFile) -> Equipment {
     }
 }
 
-/// Sensors of this mission; `None`: perfect ones.
-pub(crate) fn sensors(r: &mut Reading<'_>, file: &MissionFile) -> Option<Sensors<f64>> {
+/// Sensors of this mission as they are fitted, and those that the laws use; `None`: perfect ones.
+pub(crate) fn sensors(
+    r: &mut Reading<'_>,
+    file: &MissionFile,
+) -> (Sensors<f64>, Option<Sensors<f64>>) {
     let mut sensors = r.vehicle.sensors;
     if let Some(given) = &file.sensors {
         let (read, found) = read_sensors(r.document, at!["sensors"], given);
@@ -61,7 +64,7 @@ pub(crate) fn sensors(r: &mut Reading<'_>, file: &MissionFile) -> Option<Sensors
         sensors = read;
     }
     let there = sensors != Sensors::default();
-    match file.control.sensing {
+    let used = match file.control.sensing {
         Some(SensingFile::Perfect) => None,
         Some(SensingFile::Fitted) if !there => {
             let message = format!("vehicle {} has no sensors", file.vehicle);
@@ -70,7 +73,8 @@ pub(crate) fn sensors(r: &mut Reading<'_>, file: &MissionFile) -> Option<Sensors
             None
         }
         _ => there.then_some(sensors),
-    }
+    };
+    (sensors, used)
 }
 
 /// What turns a controlled base.

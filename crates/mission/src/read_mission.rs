@@ -160,7 +160,7 @@ fn read_case(
     let start = start(r, &file);
     let equipment = equipment(r, &file);
     let turning = turning(r, &file, &equipment);
-    let sensors = sensors(r, &file);
+    let (fitted_sensors, sensors) = sensors(r, &file);
     let fitted = (turning == Turning::Fitted).then_some(&equipment);
     let (base_control, navigation) =
         (base_control(r, &file, fitted), navigation(r, &file, sensors.as_ref()));
@@ -168,16 +168,15 @@ fn read_case(
     let (failures, wrenches) = (failures(r, &file, &equipment), applied_wrenches(r, &file));
     let payloads = payloads(r, &file, &start);
     let base = base_attitude(r, &file, &start);
-    let names: Vec<String> = file.phase.iter().map(|p| p.name.clone()).collect();
     let phases = phases(r, &file, &payloads);
-    let (quantities, requirements) = requirements(r, &file, &names);
+    let (quantities, requirements) = requirements(r, &file);
     let torque = torque_joints(r, &file);
     let output_rate = output_rate(r, &file);
     let stepper = stepper(r, &file);
     let (modulation, period) = (base_control.steering.map(|s| s.modulation), setup.tuning.period);
     let sampling = Sampling { equipment: &equipment, base, turning, stepper, period, modulation };
     check_sampling(r, &file, &sampling);
-    let nominal = Nominal { vehicle: &vehicle, start: &start, payloads: &payloads, sensors, base };
+    let nominal = Nominal::of(&vehicle, (&start, base), &payloads, &fitted_sensors);
     let dispersions = dispersions(r, &file.disperse, &nominal);
     let complaints = reading.complaints;
     if complaints.iter().any(|c| c.severity == Severity::Error) {
@@ -220,12 +219,9 @@ fn output_rate(r: &mut Reading<'_>, file: &MissionFile) -> f64 {
 }
 
 /// The quantities that are watched, and what is required of them.
-fn requirements(
-    r: &mut Reading<'_>,
-    file: &MissionFile,
-    phases: &[String],
-) -> (Vec<Quantity>, Vec<Requirement>) {
+fn requirements(r: &mut Reading<'_>, file: &MissionFile) -> (Vec<Quantity>, Vec<Requirement>) {
     let vehicle = r.vehicle;
+    let phases: Vec<String> = file.phase.iter().map(|p| p.name.clone()).collect();
     let joints: Vec<(String, bool)> = vehicle
         .joint_names
         .iter()
@@ -235,7 +231,7 @@ fn requirements(
     let quantities = quantities(&joints);
     let mut requirements = vec![];
     for (i, text) in file.requirements.iter().enumerate() {
-        match Requirement::parse(text, &quantities, phases) {
+        match Requirement::parse(text, &quantities, &phases) {
             Ok(requirement) => requirements.push(requirement),
             Err(bad) => r.complaints.push(complaint_within(r.document, i, text, bad)),
         }
