@@ -4,8 +4,8 @@ use crate::input::{complain, say, tell, text_of};
 use crate::progress::Bar;
 use crate::run::in_the_way;
 use crate::{YES, bad, no};
-use clap::Args;
-use std::num::{NonZeroU64, NonZeroUsize};
+use clap::{Args, value_parser};
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use wrasse_mission::{Mission, read_mission};
@@ -25,8 +25,8 @@ pub(crate) struct Sweep {
     /// The mission file.
     mission: PathBuf,
     /// Samples of each case.
-    #[arg(long, value_name = "N", default_value = "1000")]
-    samples: NonZeroU64,
+    #[arg(long, value_name = "N", default_value = "1000", value_parser = value_parser!(u64).range(1..=MOST))]
+    samples: u64,
     /// Seed of all draws, in place of the mission's.
     #[arg(long, value_name = "S")]
     seed: Option<u64>,
@@ -45,6 +45,9 @@ pub(crate) struct Sweep {
     #[arg(long)]
     json: bool,
 }
+
+/// Most samples: their rows are kept in memory.
+const MOST: u64 = 10_000_000;
 
 /// A share from 0 to 1.
 fn share(text: &str) -> Result<f64, String> {
@@ -95,7 +98,7 @@ impl Sweep {
         let threads = self.threads.or_else(|| std::thread::available_parallelism().ok());
         let asked = wrasse_sweep::Sweep {
             mission,
-            samples: self.samples.get(),
+            samples: self.samples,
             seed: self.seed.unwrap_or(mission.seed),
             threads: threads.map_or(1, NonZeroUsize::get),
         };

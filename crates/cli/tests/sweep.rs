@@ -90,7 +90,7 @@ fn a_sample_run_alone_has_the_values_of_its_row_to_the_last_bit() {
 #[test]
 fn a_killed_sweep_goes_on_and_ends_with_the_same_bytes() {
     let place = place();
-    let all = ["sweep", "quick.toml", "--samples", "80", "--threads", "1"];
+    let all = ["sweep", "quick.toml", "--samples", "200", "--threads", "1"];
     let whole = [&all[..], &["--out", "whole"]].concat();
     assert_eq!(place.wrasse(&whole).code, 0);
 
@@ -107,7 +107,7 @@ fn a_killed_sweep_goes_on_and_ends_with_the_same_bytes() {
     assert!(!place.names("broken").contains(&"samples.parquet".to_owned()), "killed too late");
 
     // By more threads, too.
-    let more = ["sweep", "quick.toml", "--samples", "80", "--threads", "2", "--out", "broken"];
+    let more = ["sweep", "quick.toml", "--samples", "200", "--threads", "2", "--out", "broken"];
     assert_eq!(place.wrasse(&more).code, 0);
     for file in ["samples.parquet", "summary.json", "report.html"] {
         let read = |folder: &str| place.bytes(&format!("{folder}/{file}"));

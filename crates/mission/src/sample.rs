@@ -53,6 +53,14 @@ impl Mission {
         self.cases[case].dispersions.iter().map(|d| d.name.as_str()).collect()
     }
 
+    /// Number of requirements of a case.
+    ///
+    /// # Panics
+    /// If there is no case of this number.
+    pub fn requirement_count(&self, case: usize) -> usize {
+        self.cases[case].requirements.len()
+    }
+
     /// The requirements of a case, not yet answered.
     ///
     /// # Panics

@@ -102,7 +102,10 @@ impl Parts {
     ///
     /// # Errors
     /// A part that cannot be read.
-    pub(crate) fn rows(&self) -> Result<BTreeMap<(usize, u64), Row>, SweepError> {
+    pub(crate) fn rows(
+        &self,
+        asked: &Sweep<'_>,
+    ) -> Result<BTreeMap<(usize, u64), Row>, SweepError> {
         let entries = fs::read_dir(&self.folder).map_err(|e| refused("read", &self.folder, e))?;
         let mut rows = BTreeMap::new();
         for entry in entries {
@@ -118,6 +121,10 @@ impl Parts {
             for line in text.lines() {
                 let row: Row =
                     serde_json::from_str(line).map_err(|e| damaged(&path, e.to_string()))?;
+                if !row.fits(asked.mission) {
+                    let why = format!("sample {} has other columns than this mission", row.sample);
+                    return Err(damaged(&path, why));
+                }
                 rows.insert((row.case, row.sample), row);
             }
         }

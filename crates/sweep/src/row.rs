@@ -1,7 +1,7 @@
 //! One sample in one case: a row of the results.
 
 use serde::{Deserialize, Serialize};
-use wrasse_mission::{End, SampleOutcome};
+use wrasse_mission::{End, Mission, SampleOutcome};
 
 /// What came of one sample in one case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -26,6 +26,13 @@ pub struct Row {
 }
 
 impl Row {
+    /// Whether it is of a case of this mission, as far as its columns tell.
+    pub(crate) fn fits(&self, mission: &Mission) -> bool {
+        self.case < mission.case_count()
+            && self.deviations.len() == mission.dispersed(self.case).len()
+            && self.values.len() == mission.requirement_count(self.case)
+            && self.holds.len() == self.values.len()
+    }
     pub(crate) fn of(case: usize, outcome: SampleOutcome) -> Self {
         let value = |value: Option<f64>| value.filter(|x| x.is_finite());
         Self {

@@ -46,8 +46,8 @@ pub fn sweep(
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<SweepOutcome, SweepError> {
     let parts = Parts::open(folder, asked)?;
-    let mut rows = parts.rows()?;
-    rows.retain(|(case, sample), _| *case < asked.mission.case_count() && *sample < asked.samples);
+    let mut rows = parts.rows(asked)?;
+    rows.retain(|(_, sample), _| *sample < asked.samples);
     let all = asked.samples * asked.mission.case_count() as u64;
     progress(rows.len() as u64, all);
     let chunks = asked.chunks(&rows);
