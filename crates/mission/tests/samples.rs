@@ -58,7 +58,7 @@ fn a_sample_flown_for_its_verdicts_has_every_bit_of_the_one_flown_for_a_report()
         SWEEP,
         "sweeps/unknown-client.toml",
         "base-control/thrusters.toml",
-        "base-control/noisy-tracker.toml",
+        "sweeps/sensor-noise.toml",
     ] {
         let mission = read(&requiring_everything(&text(file)));
         let case = mission.case_count() - 1;
