@@ -74,6 +74,30 @@ fn a_sample_flown_for_its_verdicts_has_every_bit_of_the_one_flown_for_a_report()
     }
 }
 
+/// What is not required is not looked at: that takes nothing from what is.
+#[test]
+fn a_requirement_that_stands_alone_sees_what_it_sees_among_all() {
+    let short = [
+        (
+            "base-control/wheels.toml",
+            vec![("0.3, 0.0]", "0.003, 0.0]"), ("30.0", "0.5"), ("5.0", "0.2")],
+        ),
+        ("base-control/hybrid.toml", vec![("duration_s = 70.0", "duration_s = 0.3")]),
+    ];
+    for (file, changes) in short {
+        let shortened = changes.iter().fold(text(file), |text, (was, is)| text.replace(was, is));
+        let all = requiring_everything(&shortened);
+        let among_all = sample(&read(&all), 0, 5, 17).verdicts;
+        assert!(among_all.len() > 40, "{file}: {}", among_all.len());
+        for verdict in among_all {
+            let alone = requiring(&shortened, std::slice::from_ref(&verdict.requirement));
+            let found = &sample(&read(&alone), 0, 5, 17).verdicts[0];
+            assert!(verdict.value.is_some());
+            assert_eq!(found.value, verdict.value, "{file}: {}", verdict.requirement);
+        }
+    }
+}
+
 /// Expected: ChaCha8 written out from its definition, key the seed and nonce the sample, the first word
 /// for the sample's own noise; quantiles by Python's `statistics`. Measured 3e-16 of the size off.
 #[test]
