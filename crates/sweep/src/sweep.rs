@@ -35,6 +35,9 @@ struct Chunk {
 /// file make many files, and eight fill the lanes of a processor.
 const CHUNK: (u64, u64) = (8, 64);
 
+/// Chunks for each thread, if there are samples enough: what an interruption costs is at most one of them.
+const CHUNKS: u64 = 64;
+
 /// Fly what is not yet done of a sweep, keeping in `folder` what is; `progress` is told how many flights
 /// are done, of how many.
 ///
@@ -94,7 +97,7 @@ impl Sweep<'_> {
 
     /// What is not done, in pieces of which there are enough for all threads.
     fn chunks(&self, done: &BTreeMap<(usize, u64), Row>) -> Vec<Chunk> {
-        let share = self.samples / (4 * self.threads.max(1) as u64);
+        let share = self.samples / (CHUNKS * self.threads.max(1) as u64);
         let size = (share / CHUNK.0 * CHUNK.0).clamp(CHUNK.0, CHUNK.1);
         let mut chunks: Vec<Chunk> = vec![];
         for case in 0..self.mission.case_count() {
