@@ -16,12 +16,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
 
     /// Where the law believes the vehicle to be, and how it moves.
     pub fn believed_state(&self) -> State<T, J> {
-        State {
-            X_NB: self.memory.belief.X_NB,
-            V_NB_B: self.memory.motion.rate.V_NB_B,
-            q: self.memory.belief.q,
-            v: self.memory.motion.rate.qdot,
-        }
+        self.memory.believed_state()
     }
 
     /// The robot as the laws know it.
@@ -51,7 +46,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     /// end of the current line is out of reach. A floating base is taken as held here: where it ends
     /// depends on the way.
     pub fn end_out_of_reach(&self) -> Option<Unreachable<T>> {
-        let Path::Line(line, axes) = self.path else { return None };
+        let Path::Line(line, axes) = self.guidance.path else { return None };
         let X = line.at(line.duration()).X_NE;
         let (tool, law) = (&self.setup.assignment.tool, self.setup.assignment.law);
         let state =
@@ -61,11 +56,11 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
 
     /// Whether the current phase moves the tool along a line.
     pub fn follows_tool(&self) -> bool {
-        matches!(self.path, Path::Line(..) | Path::Still(Held::Tool))
+        matches!(self.guidance.path, Path::Line(..) | Path::Still(Held::Tool))
     }
 
     /// Whether all phases are done.
     pub fn done(&self) -> bool {
-        self.sequence.is_done()
+        self.guidance.is_done()
     }
 }

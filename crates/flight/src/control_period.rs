@@ -63,12 +63,12 @@ pub struct PeriodMemory<T, const J: usize> {
     /// Mean joint acceleration that was asked for over the last period (rad/s² or m/s²).
     pub acceleration: [T; J],
     /// Set-points at the start of the coming period.
-    now: [SetPoint<T>; J],
+    pub(crate) now: [SetPoint<T>; J],
     /// Measured twist of the base less the one that the law believed in (rad/s, m/s).
-    surprise: SpatialVelocity<T>,
+    pub(crate) surprise: SpatialVelocity<T>,
     /// Whether the sensors were read once.
-    started: bool,
-    coasting: bool,
+    pub(crate) started: bool,
+    pub(crate) coasting: bool,
 }
 
 impl<T: Real, const J: usize> Default for PeriodMemory<T, J> {
@@ -182,6 +182,12 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             return Told::nothing(self.now, whole);
         }
         told(robot, setup, sensed, (&now, &self.now), whole, tool_wrench_E)
+    }
+
+    /// The vehicle as the law believes it to be, and to move.
+    pub fn believed_state(&self) -> State<T, J> {
+        let Resolved { qdot, V_NB_B } = self.motion.rate;
+        State { X_NB: self.belief.X_NB, V_NB_B, q: self.belief.q, v: qdot }
     }
 
     /// The vehicle as the law believes it to be a period (s) on, from its motion now alone.

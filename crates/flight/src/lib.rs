@@ -19,6 +19,7 @@ mod damped_inverse;
 mod door;
 mod error_covariance;
 mod feedforward;
+mod guidance;
 mod joint_estimator;
 mod law;
 mod mobility;
@@ -29,6 +30,7 @@ mod phase;
 mod posture;
 mod resolved_motion;
 mod sequence;
+mod side_by_side;
 mod tool_pose;
 mod tool_wrench;
 
@@ -41,6 +43,7 @@ pub use computer::{FlightComputer, Setup};
 pub use control_period::{Asked, PeriodMemory, control_period};
 pub use door::{Axes, BaseReading, Command, Grip, JointReading, Sensed};
 pub use feedforward::feedforward_torque;
+pub use guidance::{Guidance, Guided};
 pub use joint_estimator::JointEstimator;
 pub use law::{ArmLaw, Feedforward, Measurement, Task, Tuning};
 pub use navigation::{Navigation, NavigationSetup};
@@ -51,5 +54,6 @@ pub use resolved_motion::{
     resolved_motion, task_jacobian,
 };
 pub use sequence::{BadPhase, LONGEST, NoWay};
+pub use side_by_side::{asked_side_by_side, states_side_by_side};
 pub use tool_pose::{Unreachable, joints_for_tool};
 pub use tool_wrench::against_tool_wrench;

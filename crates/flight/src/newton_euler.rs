@@ -124,6 +124,8 @@ pub(crate) struct Swing<T, const J: usize> {
 }
 
 impl<T: Real, const J: usize> Swing<T, J> {
+    /// With these positions, rates and accelerations of the joints.
+    ///
     /// # Source
     /// [`Featherstone2008`](wrasse_spatial::references::Featherstone2008) ch. 5.
     #[inline(always)]

@@ -154,8 +154,7 @@ impl<const J: usize> Period<J> {
     }
     /// The vehicle as it is believed to move after the period.
     pub(crate) fn believed_state(&self) -> State<f64, J> {
-        let PeriodMemory { belief, motion, .. } = &self.memory;
-        State { X_NB: belief.X_NB, V_NB_B: motion.rate.V_NB_B, q: belief.q, v: motion.rate.qdot }
+        self.memory.believed_state()
     }
     /// Flies it.
     pub(crate) fn fly(&mut self, robot: &Robot<f64, J>, setup: &Setup<f64, J>) -> Told<f64, J> {
