@@ -51,7 +51,7 @@ fn result(vehicle: &Vehicle, frame: &Frame<f64>, q: &Question) -> Value {
     let dynamics = inverse_dynamics(&k, &q.nudot, &none);
     let matrix: Vec<Vec<f64>> =
         (0..6 + n).map(|r| (0..6 + n).map(|c| M.element(r, c)).collect()).collect();
-    let all_columns: Vec<_> = J.base.iter().chain(&J.joints[..n]).copied().collect();
+    let all_columns: Vec<_> = J.base().iter().chain(&J.joints[..n]).copied().collect();
     json!({
         "mass_matrix": matrix,
         "bias_force": flat_force(&bias_force(&k), n),

@@ -1,6 +1,6 @@
 //! The paper's Jacobian: base attitude held, centre of mass at rest.
 
-use crate::{Jacobian, MassMatrix};
+use crate::{BaseRows, Jacobian};
 use wrasse_spatial::{Mat3, Real, SpatialVelocity};
 
 /// `J̄`: twist of the frame per joint rate, base rotation held and linear momentum zero.
@@ -11,15 +11,16 @@ use wrasse_spatial::{Mat3, Real, SpatialVelocity};
 /// # Source
 /// [`Ellery2004`](wrasse_spatial::references::Ellery2004), below eq. (7), mended: as printed it
 /// sums over the column index, leaves out the payload term and has no rotational rows.
+#[inline(always)]
 pub fn attitude_held_jacobian<T: Real, const J: usize>(
     J_frame: &Jacobian<T, J>,
-    M: &MassMatrix<T, J>,
+    M: &BaseRows<T, J>,
     R_NB: &Mat3<T>,
 ) -> [SpatialVelocity<T>; J] {
     let per_mass = T::one() / M.M_bb.mass;
-    core::array::from_fn(|j| {
-        let column = J_frame.joints[j];
-        let v_cm = *R_NB * M.M_bj[j].force * per_mass;
-        SpatialVelocity::new(column.angular, column.linear - v_cm)
-    })
+    let mut columns = J_frame.joints;
+    for j in 0..M.count.min(J) {
+        columns[j].linear -= *R_NB * M.M_bj[j].force * per_mass;
+    }
+    columns
 }

@@ -5,9 +5,9 @@ use wrasse_spatial::Real;
 
 /// Kinetic energy `Σ ½ V·M V` (J), summed body by body.
 pub fn kinetic_energy<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> T {
-    let mut twice = T::zero();
+    let (mut twice, V_NB_B) = (T::zero(), k.twists());
     for body in k.robot.bodies() {
-        let V = k.V_NB_B(body);
+        let V = V_NB_B[body];
         twice += V.power(&(*k.robot.inertia(body) * V));
     }
     twice * T::from_f64(0.5)

@@ -4,8 +4,8 @@
 //! bodies, and what a joint carries is a plain sum.
 
 use crate::{
-    BodyId, Generalized, GeneralizedForce, GeneralizedVelocity, Joint, JointKind, Kinematics,
-    MassMatrix, PerBody,
+    BaseRows, BodyId, Generalized, GeneralizedForce, GeneralizedVelocity, Joint, JointKind,
+    Kinematics, MassMatrix, PerBody,
 };
 use core::ops::AddAssign;
 use wrasse_spatial::{
@@ -267,13 +267,13 @@ impl<T: Real, const J: usize> Bodies<T, J> {
     /// As they are and move in this state.
     #[inline(always)]
     pub(crate) fn observe(&mut self, k: &Kinematics<'_, T, J>) {
-        let base = Motion::of_base(k.V_NB_B(BodyId::Base));
+        let base = Motion::of_base(k.state.V_NB_B);
         let matter = Matter::of_body(k.robot.inertia(BodyId::Base), &base);
         (self.motions.base, self.matter.base, self.carried.base) = (base, matter, matter);
         for j in k.robot.joints() {
             let joint = k.robot.joint(j);
             let parent = &self.motions[joint.parent];
-            let motion = parent.of_child(joint, &k.X_PB[j], k.state.v[j]);
+            let motion = parent.of_child(joint, &k.links[j].X_PB, k.state.v[j]);
             let matter = Matter::of_body(k.robot.inertia(BodyId::Link(j)), &motion);
             self.motions.links[j] = motion;
             self.matter.links[j] = matter;
@@ -328,10 +328,10 @@ impl<T: Real, const J: usize> Bodies<T, J> {
     /// The mass matrix, into a place that is zero.
     #[inline(always)]
     pub(crate) fn mass_matrix_into(&self, k: &Kinematics<'_, T, J>, M: &mut MassMatrix<T, J>) {
-        M.M_bb = self.carried.base.inertia();
+        M.base.M_bb = self.carried.base.inertia();
         for j in k.robot.joints() {
             let inertial = self.carried.links[j].times(&self.motions.links[j].S);
-            M.M_bj[j] = inertial;
+            M.base.M_bj[j] = inertial;
             for i in k.robot.path_to_base(BodyId::Link(j)) {
                 let M_ij = self.motions.links[i].S.power(&inertial);
                 M.M_jj[i][j] = M_ij;
@@ -381,9 +381,7 @@ impl<T: Real, const J: usize> InverseDynamicsDerivatives<T, J> {
             by_rate: JointColumns::filled(no_force),
             by_base_velocity: BaseColumns { base: [no_force; 6], joints: [[T::zero(); 6]; J] },
             by_acceleration: MassMatrix {
-                count,
-                M_bb: SpatialInertia::zero(),
-                M_bj: [no_force; J],
+                base: BaseRows { count, M_bb: SpatialInertia::zero(), M_bj: [no_force; J] },
                 M_jj: [[T::zero(); J]; J],
             },
         }

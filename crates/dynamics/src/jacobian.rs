@@ -2,13 +2,15 @@
 
 use crate::{BodyId, Frame, Generalized, GeneralizedVelocity, Kinematics, PerBody};
 use core::array;
-use wrasse_spatial::{Real, SpatialAcceleration, SpatialVelocity};
+use wrasse_spatial::{Mat3, Real, SpatialAcceleration, SpatialVelocity, Vec3};
 
 /// Columns of `J_V_NE_N`: twist of a frame's origin in inertial axes, for unit rates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Jacobian<T, const J: usize> {
-    /// Columns for `[w_NB_B; v_NB_B]`.
-    pub base: [SpatialVelocity<T>; 6],
+    /// How the base is turned, `R_NB`.
+    pub R_NB: Mat3<T>,
+    /// From the base's origin to the frame's, inertial axes (m).
+    pub p_BE_N: Vec3<T>,
     /// Columns for the joints; zero off the path to the frame.
     pub joints: [SpatialVelocity<T>; J],
 }
@@ -17,14 +19,16 @@ impl<T: Real, const J: usize> Jacobian<T, J> {
     /// `J_b V_NB_B`: the twist that the base's motion alone gives the frame.
     #[inline(always)]
     pub fn of_base(&self, V_NB_B: &SpatialVelocity<T>) -> SpatialVelocity<T> {
-        let rates = V_NB_B.to_array();
-        let mut V = SpatialVelocity::zero();
-        for k in 0..6 {
-            V += self.base[k] * rates[k];
-        }
-        V
+        let (w_N, v_N) = (self.R_NB * V_NB_B.angular, self.R_NB * V_NB_B.linear);
+        SpatialVelocity::new(w_N, v_N).shifted_by(self.p_BE_N)
+    }
+    /// Columns for `[w_NB_B; v_NB_B]`.
+    pub fn base(&self) -> [SpatialVelocity<T>; 6] {
+        let unit = |c: usize| array::from_fn(|i| T::from_f64(f64::from(u8::from(i == c))));
+        array::from_fn(|c| self.of_base(&SpatialVelocity::from_array(unit(c))))
     }
     /// `J ν`.
+    #[inline(always)]
     pub fn times(&self, nu: &GeneralizedVelocity<T, J>) -> SpatialVelocity<T> {
         let mut V = self.of_base(&nu.base);
         for j in 0..J {
@@ -38,33 +42,30 @@ impl<T: Real, const J: usize> Jacobian<T, J> {
 ///
 /// # Source
 /// [`Featherstone2008`](wrasse_spatial::references::Featherstone2008) ch. 4.
+#[inline(always)]
 pub fn jacobian<T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     frame: &Frame<T>,
 ) -> Jacobian<T, J> {
-    let p_NE = k.pose(frame).translation;
-    // Twist of a body for one of its own unit twists, carried to E and turned to inertial axes.
-    let at_E = |body: BodyId, V_B: SpatialVelocity<T>| {
-        let X_NB = &k.X_NB(body);
-        let V = SpatialVelocity::new(X_NB.rotation * V_B.angular, X_NB.rotation * V_B.linear);
-        V.shifted_by(p_NE - X_NB.translation)
-    };
-    let unit = |c: usize| {
-        SpatialVelocity::from_array(array::from_fn(|i| T::from_f64(f64::from(u8::from(i == c)))))
-    };
-    let mut columns = Jacobian {
-        base: array::from_fn(|c| at_E(BodyId::Base, unit(c))),
-        joints: [SpatialVelocity::zero(); J],
-    };
-    for j in k.robot.path_to_base(frame.body) {
-        columns.joints[j] = at_E(BodyId::Link(j), k.robot.joint(j).velocity(T::one()));
+    let X_NB = k.poses();
+    let p_NE = X_NB[frame.body].point(frame.X_BF.translation);
+    let mut joints = [SpatialVelocity::zero(); J];
+    let mut at = frame.body;
+    while let BodyId::Link(j) = at {
+        // Twist of the link for unit rate, carried to E.
+        let (joint, X_NL) = (k.robot.joint(j), &X_NB.links[j]);
+        let at_L = joint.motion_along(X_NL.rotation * joint.axis_B, T::one());
+        joints[j] = at_L.shifted_by(p_NE - X_NL.translation);
+        at = joint.parent;
     }
-    columns
+    let X_NB = &k.state.X_NB;
+    Jacobian { R_NB: X_NB.rotation, p_BE_N: p_NE - X_NB.translation, joints }
 }
 
 /// `J̇ ν`: rate of `V_NE_N` (rad/s², m/s²) with all generalized accelerations zero.
 ///
 /// This is the classical acceleration of the frame's origin: what an observer in N measures.
+#[inline(always)]
 pub fn bias_acceleration<T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     frame: &Frame<T>,
@@ -83,13 +84,13 @@ pub(crate) fn spatial_accelerations<T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     nudot: &GeneralizedVelocity<T, J>,
 ) -> PerBody<SpatialAcceleration<T>, J> {
-    let mut A_NB_B: PerBody<_, J> = PerBody::filled(nudot.base);
+    let (mut A_NB_B, V_NB_B): (PerBody<_, J>, _) = (PerBody::filled(nudot.base), k.twists());
     for j in k.robot.joints() {
         let joint = k.robot.joint(j);
         let VJ_B = joint.velocity(k.state.v[j]);
-        A_NB_B.links[j] = k.X_PB[j].velocity_to_child(&A_NB_B[joint.parent])
+        A_NB_B.links[j] = k.links[j].X_PB.velocity_to_child(&A_NB_B[joint.parent])
             + joint.velocity(nudot.joints[j])
-            + k.V_NB_B(BodyId::Link(j)).cross(&VJ_B);
+            + V_NB_B.links[j].cross(&VJ_B);
     }
     A_NB_B
 }

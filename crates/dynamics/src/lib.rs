@@ -39,7 +39,7 @@ pub use inverse_dynamics_derivatives::{
 pub use inverse_mass_matrix::{InverseMassMatrix, inverse_mass_matrix};
 pub use jacobian::{Jacobian, bias_acceleration, jacobian};
 pub use kinematics::{Kinematics, kinematics};
-pub use mass_matrix::{MassMatrix, mass_matrix};
+pub use mass_matrix::{BaseRows, MassMatrix, base_rows, mass_matrix};
 pub use momentum::{Momentum, base_twist, momentum, momentum_matrix};
 pub use printed_reaction::{PrintedReaction, printed_reaction};
 pub use reaction::{attitude_torque, mount_reaction};

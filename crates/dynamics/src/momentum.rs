@@ -1,6 +1,6 @@
 //! Momentum: summed over the bodies, per unit rate, and backwards to the base's twist.
 
-use crate::{Kinematics, MassMatrix};
+use crate::{BaseRows, Kinematics, PerBody};
 use wrasse_spatial::{Mat3, Real, SpatialMomentum, SpatialVelocity, Vec3};
 
 /// Momentum of the whole system in inertial axes.
@@ -17,17 +17,26 @@ pub struct Momentum<T> {
 }
 
 /// Momentum summed body by body from poses and twists, angular about the system's centre of mass.
+#[inline(always)]
 pub fn momentum<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> Momentum<T> {
-    let (mass, p_NScm_N) = k.centre_of_mass();
-    let (mut angular, mut linear) = (Vec3::zero(), Vec3::zero());
+    let (mass, p_BScm_B) = k.centre_of_mass_B();
+    let V_NB_B = k.twists();
+    let mut h_B: PerBody<SpatialMomentum<T>, J> = PerBody::filled(SpatialMomentum::zero());
     for body in k.robot.bodies() {
-        let X_NB = &k.X_NB(body);
-        let h_B = *k.robot.inertia(body) * k.V_NB_B(body);
-        let force = X_NB.rotation * h_B.force;
-        linear += force;
-        angular += X_NB.rotation * h_B.torque + (X_NB.translation - p_NScm_N).cross(force);
+        h_B[body] = *k.robot.inertia(body) * V_NB_B[body];
     }
-    Momentum { mass, p_NScm_N, angular, linear }
+    for j in k.robot.joints().rev() {
+        let onto_parent = k.links[j].X_PB.force_to_parent(&h_B.links[j]);
+        h_B[k.robot.joint(j).parent] += onto_parent;
+    }
+    let X_NB = &k.state.X_NB;
+    let about_cm = h_B.base.about(p_BScm_B);
+    Momentum {
+        mass,
+        p_NScm_N: X_NB.point(p_BScm_B),
+        angular: X_NB.rotation * about_cm.torque,
+        linear: X_NB.rotation * about_cm.force,
+    }
 }
 
 /// Columns of the momentum matrix `A`: `[angular about the centre of mass; linear]` in inertial
@@ -36,21 +45,32 @@ pub fn momentum<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> Momentum<T
 /// # Source
 /// [`Orin2013`](wrasse_spatial::references::Orin2013): the centroidal momentum matrix.
 #[doc(alias = "centroidal momentum matrix")]
+#[inline(always)]
 pub fn momentum_matrix<T: Real, const J: usize>(
-    M: &MassMatrix<T, J>,
+    M: &BaseRows<T, J>,
     R_NB: &Mat3<T>,
 ) -> ([SpatialMomentum<T>; 6], [SpatialMomentum<T>; J]) {
     let p_BScm_B = M.M_bb.centre_of_mass();
-    let to_N = |h_B: SpatialMomentum<T>| {
-        let about_cm = h_B.about(p_BScm_B);
-        SpatialMomentum::new(*R_NB * about_cm.torque, *R_NB * about_cm.force)
-    };
-    let unit = |c: usize| {
-        SpatialVelocity::from_array(core::array::from_fn(|i| {
-            T::from_f64(f64::from(u8::from(i == c)))
-        }))
-    };
-    (core::array::from_fn(|c| to_N(M.M_bb * unit(c))), M.M_bj.map(to_N))
+    let mut joints = [SpatialMomentum::zero(); J];
+    for j in 0..M.count.min(J) {
+        let h = M.M_bj[j].about(p_BScm_B);
+        joints[j] = SpatialMomentum::new(*R_NB * h.torque, *R_NB * h.force);
+    }
+    // About the centre of mass a turn has no linear momentum of its own but that of the lever, and
+    // a push no angular one.
+    let (o, I) = (Vec3::zero(), M.M_bb.central().to_mat3());
+    let turn = (*R_NB * I).transpose().rows;
+    let lever = (*R_NB * M.M_bb.first_moment.skew()).transpose().rows;
+    let push = R_NB.scaled(M.M_bb.mass).transpose().rows;
+    let base = [
+        SpatialMomentum::new(turn[0], -lever[0]),
+        SpatialMomentum::new(turn[1], -lever[1]),
+        SpatialMomentum::new(turn[2], -lever[2]),
+        SpatialMomentum::new(o, push[0]),
+        SpatialMomentum::new(o, push[1]),
+        SpatialMomentum::new(o, push[2]),
+    ];
+    (base, joints)
 }
 
 /// Base twist `V_NB_B` that the total momentum and the joint rates mean:
@@ -64,7 +84,7 @@ pub fn momentum_matrix<T: Real, const J: usize>(
 /// | `qdot` | joint rates | rad/s, m/s |
 #[inline(always)]
 pub fn base_twist<T: Real, const J: usize>(
-    M: &MassMatrix<T, J>,
+    M: &BaseRows<T, J>,
     h_Scm_B: &SpatialMomentum<T>,
     qdot: &[T; J],
 ) -> SpatialVelocity<T> {

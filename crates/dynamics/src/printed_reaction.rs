@@ -30,7 +30,7 @@ pub fn printed_reaction<T: Real, const J: usize>(
     nudot: &GeneralizedVelocity<T, J>,
     root: usize,
 ) -> PrintedReaction<T> {
-    let A_NB_B = spatial_accelerations(k, nudot);
+    let (A_NB_B, V_NB_B, X_NB) = (spatial_accelerations(k, nudot), k.twists(), k.poses());
     let (mut F_T, mut N_T) = (Vec3::zero(), Vec3::zero());
     let (mut mass, mut moment) = (T::zero(), Vec3::zero());
     for j in k.robot.joints() {
@@ -39,7 +39,7 @@ pub fn printed_reaction<T: Real, const J: usize>(
             continue;
         }
         let (M, I) = (k.robot.inertia(body), *k.robot.inertia_of_parts(body));
-        let (X_NB, V, A) = (&k.X_NB(body), k.V_NB_B(body), A_NB_B[body]);
+        let (X_NB, V, A) = (&X_NB[body], V_NB_B[body], A_NB_B[body]);
         let (w, wdot) = (V.angular, A.angular);
         // m times the classical acceleration of Bcm, from m and the first moment alone.
         let h = M.first_moment;

@@ -30,15 +30,17 @@ impl<T: Real, const J: usize> ReducedDynamics<T, J> {
 ///
 /// # Source
 /// [`UmetaniYoshida1989`](wrasse_spatial::references::UmetaniYoshida1989).
+#[inline(always)]
 pub fn free_floating_dynamics<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     M: &MassMatrix<T, J>,
     c: &GeneralizedForce<T, J>,
 ) -> ReducedDynamics<T, J> {
     let mut reduced = ReducedDynamics { H: M.M_jj, c: c.joints };
-    let recoil_of_bias = M.M_bb.velocity_of(&c.base);
+    let per_M_bb = M.M_bb.inverse();
+    let recoil_of_bias = per_M_bb.velocity_of(&c.base);
     for j in robot.joints() {
-        let recoil = M.M_bb.velocity_of(&M.M_bj[j]);
+        let recoil = per_M_bb.velocity_of(&M.M_bj[j]);
         for i in robot.joints() {
             reduced.H[i][j] -= recoil.power(&M.M_bj[i]);
         }
@@ -48,6 +50,7 @@ pub fn free_floating_dynamics<T: Real, const J: usize>(
 }
 
 /// Attitude held, translation free: `H̄ = M_jj - M_vjᵀ M_vj/m_T`, `c̄ = c_j - M_vjᵀ c_v/m_T`.
+#[inline(always)]
 pub fn attitude_held_dynamics<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     M: &MassMatrix<T, J>,

@@ -2,7 +2,9 @@
 
 use core::fmt;
 use core::ops::{Index, IndexMut, Range};
-use wrasse_spatial::{Mat3, Pose, Real, SpatialForce, SpatialInertia, SpatialVelocity, Sym3, Vec3};
+use wrasse_spatial::{
+    ArticulatedInertia, Mat3, Pose, Real, SpatialForce, SpatialInertia, SpatialVelocity, Sym3, Vec3,
+};
 
 /// One of the robot's moving bodies. Links that are fixed to each other are one body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,33 +61,99 @@ impl<T: Real> Joint<T> {
     /// `X_PB` at travel `q` (rad or m).
     #[inline(always)]
     pub fn X_PB(&self, q: T) -> Pose<T> {
+        let (sin, cos) = q.sin_cos();
+        self.X_PB_turned(q, sin, cos)
+    }
+    /// `X_PB` at travel `q` (rad or m), whose sine and cosine are known.
+    #[inline(always)]
+    pub(crate) fn X_PB_turned(&self, q: T, sin: T, cos: T) -> Pose<T> {
         match self.kind {
             JointKind::Revolute => {
-                let (s, c) = q.sin_cos();
                 let [along, sine, cosine] = &self.turn;
-                Pose::new(*along + sine.scaled(s) + cosine.scaled(c), self.X_PB_zero.translation)
+                let R_PB = *along + sine.scaled(sin) + cosine.scaled(cos);
+                Pose::new(R_PB, self.X_PB_zero.translation)
             }
             JointKind::Prismatic => {
                 Pose::new(self.X_PB_zero.rotation, self.X_PB_zero.point(self.axis_B * q))
             }
         }
     }
+    /// What the joint adds to the turning rate, in B axes (rad/s).
+    #[inline(always)]
+    pub(crate) fn turning(&self, qdot: T) -> Vec3<T> {
+        match self.kind {
+            JointKind::Revolute => self.axis_B * qdot,
+            JointKind::Prismatic => Vec3::zero(),
+        }
+    }
+    /// What the joint adds to the classical acceleration of B at Bo, in B axes, when B turns with
+    /// `w_NB_B` (rad/s²; m/s²).
+    #[inline(always)]
+    pub(crate) fn acceleration(&self, w_NB_B: Vec3<T>, qdot: T, qddot: T) -> SpatialVelocity<T> {
+        self.acceleration_along(self.axis_B, w_NB_B, qdot, qddot)
+    }
+    /// The same in the axes of the axis.
+    #[inline(always)]
+    pub(crate) fn acceleration_along(
+        &self,
+        axis: Vec3<T>,
+        w_NB: Vec3<T>,
+        qdot: T,
+        qddot: T,
+    ) -> SpatialVelocity<T> {
+        let (along, across) = (axis * qddot, w_NB.cross(axis * qdot));
+        match self.kind {
+            JointKind::Revolute => SpatialVelocity::new(along + across, Vec3::zero()),
+            JointKind::Prismatic => {
+                SpatialVelocity::new(Vec3::zero(), along + across * T::from_f64(2.0))
+            }
+        }
+    }
     /// `S_B q̇`: velocity of B relative to its parent, at Bo, in B axes, for the joint rate `qdot`.
     #[inline(always)]
     pub fn velocity(&self, qdot: T) -> SpatialVelocity<T> {
-        let (o, along) = (Vec3::zero(), self.axis_B * qdot);
+        self.motion_along(self.axis_B, qdot)
+    }
+    /// `M S`: momentum of an inertia that moves with unit joint rate, in the axes of both.
+    #[inline(always)]
+    pub(crate) fn momentum_along(&self, axis: Vec3<T>, M: &SpatialInertia<T>) -> SpatialForce<T> {
         match self.kind {
-            JointKind::Revolute => SpatialVelocity::new(along, o),
-            JointKind::Prismatic => SpatialVelocity::new(o, along),
+            JointKind::Revolute => {
+                SpatialForce::new(M.rotational * axis, axis.cross(M.first_moment))
+            }
+            JointKind::Prismatic => SpatialForce::new(M.first_moment.cross(axis), axis * M.mass),
+        }
+    }
+    /// The same of an inertia that carries a tree.
+    #[inline(always)]
+    pub(crate) fn force_along(&self, axis: Vec3<T>, M: &ArticulatedInertia<T>) -> SpatialForce<T> {
+        match self.kind {
+            JointKind::Revolute => {
+                SpatialForce::new(M.angular * axis, M.coupling.transpose_mul(axis))
+            }
+            JointKind::Prismatic => SpatialForce::new(M.coupling * axis, M.linear * axis),
+        }
+    }
+    /// `Sᵀ F`, in the axes of both.
+    #[inline(always)]
+    pub(crate) fn project_on(&self, axis: Vec3<T>, F: &SpatialForce<T>) -> T {
+        match self.kind {
+            JointKind::Revolute => axis.dot(F.torque),
+            JointKind::Prismatic => axis.dot(F.force),
+        }
+    }
+    /// `S q̈`, in the axes of the axis.
+    #[inline(always)]
+    pub(crate) fn motion_along(&self, axis: Vec3<T>, rate: T) -> SpatialVelocity<T> {
+        match self.kind {
+            JointKind::Revolute => SpatialVelocity::new(axis * rate, Vec3::zero()),
+            JointKind::Prismatic => SpatialVelocity::new(Vec3::zero(), axis * rate),
         }
     }
     /// `S_Bᵀ F_B_B`: the part of a force that the joint's motor feels (N·m or N).
     #[inline(always)]
     pub fn project(&self, F_B_B: &SpatialForce<T>) -> T {
-        match self.kind {
-            JointKind::Revolute => self.axis_B.dot(F_B_B.torque),
-            JointKind::Prismatic => self.axis_B.dot(F_B_B.force),
-        }
+        self.project_on(self.axis_B, F_B_B)
     }
 }
 

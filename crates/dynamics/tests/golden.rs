@@ -147,7 +147,7 @@ fn check_motion(k: &Kinematics<f64, JOINTS>, frame: &Frame<f64>, order: &[usize]
     let (J_frame, M) = (jacobian(k, frame), mass_matrix(k));
     let in_order =
         |columns: &[SpatialVelocity<f64>]| order.iter().map(|&j| columns[j]).collect::<Vec<_>>();
-    let all = [&J_frame.base[..], &in_order(&J_frame.joints)].concat();
+    let all = [&J_frame.base()[..], &in_order(&J_frame.joints)].concat();
     agree("jacobian", &rows_of(&all), &expect["jacobian"], RELATIVE);
     let free = in_order(&generalized_jacobian(&J_frame, &M));
     agree("generalized_jacobian", &rows_of(&free), &expect["generalized_jacobian"], RELATIVE);

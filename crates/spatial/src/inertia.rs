@@ -44,14 +44,22 @@ impl<T: Real> SpatialInertia<T> {
     #[inline(always)]
     #[must_use]
     pub fn about(&self, p_BC: Vec3<T>) -> Self {
-        // With r from C = r from B - p:  I_C = I_B + m[p]ᵀ[p] + ([h][p] + [p][h]), h = m p_BBcm.
-        let (h, m) = (self.first_moment, self.mass);
-        let cross = h.outer(p_BC);
-        let two = T::from_f64(2.0);
-        let h_dot_p = h.dot(p_BC);
-        let shift = Sym3::of_point(m, p_BC) - Sym3::diagonal(h_dot_p, h_dot_p, h_dot_p).scaled(two)
-            + Sym3::symmetric_part(&cross).scaled(two);
-        Self { mass: m, first_moment: h - p_BC * m, rotational: self.rotational + shift }
+        // With r from C = r from B - p:  I_C = I_B + (p·g) 1 - ½ (p gᵀ + g pᵀ), g = m p - 2 h.
+        let (h, m, p) = (self.first_moment, self.mass, p_BC);
+        let mp = p * m;
+        let g = mp - (h + h);
+        let half = g * T::from_f64(0.5);
+        let (x, y, z) = (p.x * g.x, p.y * g.y, p.z * g.z);
+        let I = self.rotational;
+        let rotational = Sym3 {
+            xx: I.xx + (y + z),
+            xy: I.xy - (p.x * half.y + p.y * half.x),
+            xz: I.xz - (p.x * half.z + p.z * half.x),
+            yy: I.yy + (x + z),
+            yz: I.yz - (p.y * half.z + p.z * half.y),
+            zz: I.zz + (x + y),
+        };
+        Self { mass: m, first_moment: h - mp, rotational }
     }
     /// The same body in A axes, from `R_AB`.
     #[inline(always)]
@@ -66,11 +74,15 @@ impl<T: Real> SpatialInertia<T> {
     /// Velocity that a momentum means, `M⁻¹ h`, about the same point and in the same axes.
     #[inline(always)]
     pub fn velocity_of(&self, h: &SpatialForce<T>) -> SpatialVelocity<T> {
-        // Through the centre of mass the rotation and the translation come apart.
-        let p_cm = self.centre_of_mass();
-        let w = self.central().solve(h.torque - p_cm.cross(h.force));
-        let v_cm = h.force * (T::one() / self.mass);
-        SpatialVelocity::new(w, v_cm - w.cross(p_cm))
+        self.inverse().velocity_of(h)
+    }
+    /// `M⁻¹`, for many momenta; the mass must not be zero.
+    #[inline(always)]
+    pub fn inverse(&self) -> InverseInertia<T> {
+        let per_mass = T::one() / self.mass;
+        let p_cm = self.first_moment * per_mass;
+        let central = self.rotational - Sym3::of_point(self.mass, p_cm);
+        InverseInertia { per_mass, p_cm, per_central: central.inverse() }
     }
     /// Each element converted from `f64`.
     #[inline(always)]
@@ -116,6 +128,27 @@ impl<T: Real> AddAssign for SpatialInertia<T> {
     }
 }
 
+/// The inverse of a [`SpatialInertia`]: through the centre of mass the rotation and the translation
+/// come apart.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InverseInertia<T> {
+    /// One over the mass (1/kg).
+    pub per_mass: T,
+    /// Centre of mass (m).
+    pub p_cm: Vec3<T>,
+    /// Inverse of the rotational inertia about the centre of mass (1/(kg·m²)).
+    pub per_central: Sym3<T>,
+}
+
+impl<T: Real> InverseInertia<T> {
+    /// Velocity that a momentum means, about the same point and in the same axes.
+    #[inline(always)]
+    pub fn velocity_of(&self, h: &SpatialForce<T>) -> SpatialVelocity<T> {
+        let w = self.per_central * (h.torque - self.p_cm.cross(h.force));
+        SpatialVelocity::new(w, h.force * self.per_mass - w.cross(self.p_cm))
+    }
+}
+
 /// Symmetric 6×6 inertia `[I H; Hᵀ M]` of a body that carries an articulated tree.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ArticulatedInertia<T> {
@@ -142,11 +175,10 @@ impl<T: Real> ArticulatedInertia<T> {
     #[must_use]
     pub fn without(&self, U: &SpatialForce<T>, s: T) -> Self {
         let (t, f) = (U.torque, U.force);
-        let (ts, fs) = (t * s, f * s);
         Self {
-            angular: self.angular - Sym3::symmetric_part(&t.outer(ts)),
-            coupling: self.coupling - t.outer(fs),
-            linear: self.linear - Sym3::symmetric_part(&f.outer(fs)),
+            angular: self.angular - Sym3::dyad(t, s),
+            coupling: self.coupling - t.outer(f * s),
+            linear: self.linear - Sym3::dyad(f, s),
         }
     }
     /// In A axes, from `R_AB`.
@@ -163,17 +195,21 @@ impl<T: Real> ArticulatedInertia<T> {
     #[inline(always)]
     #[must_use]
     pub fn about(&self, p_BC: Vec3<T>) -> Self {
-        // v_B = v_C - p × w … in blocks: H_C = H - [p] M;  I_C = I + [p] Hᵀ… , both symmetric.
-        let P = p_BC.skew();
-        let M = self.linear.to_mat3();
-        let H_C = self.coupling - P * M;
-        // I_C = I - [p] Hᵀ - (H - [p] M) [p]ᵀ.
-        let moved = P * self.coupling.transpose() + H_C * P.transpose();
-        Self {
-            angular: self.angular - Sym3::symmetric_part(&moved),
-            coupling: H_C,
-            linear: self.linear,
-        }
+        // v_B = v_C - p × w … in blocks: H_C = H - [p] M;  I_C = I - [p] Gᵀ - G [p]ᵀ, G = H - ½ [p] M.
+        let [a, b, c] = self.linear.to_mat3().rows;
+        let PM = Mat3::from_columns(p_BC.cross(a), p_BC.cross(b), p_BC.cross(c));
+        let [x, y, z] = (self.coupling - PM.scaled(T::from_f64(0.5))).rows;
+        let (u, v, w) = (p_BC.cross(x), p_BC.cross(y), p_BC.cross(z));
+        // [p] Gᵀ has the columns p × (row of G).
+        let moved = Sym3 {
+            xx: u.x + u.x,
+            xy: u.y + v.x,
+            xz: u.z + w.x,
+            yy: v.y + v.y,
+            yz: v.z + w.y,
+            zz: w.z + w.z,
+        };
+        Self { angular: self.angular - moved, coupling: self.coupling - PM, linear: self.linear }
     }
     /// `M⁻¹ F`: block elimination, linear part first.
     #[inline(always)]

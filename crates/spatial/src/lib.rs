@@ -20,7 +20,7 @@ mod trigonometry;
 mod vector;
 
 pub use dual::Dual;
-pub use inertia::{ArticulatedInertia, SpatialInertia};
+pub use inertia::{ArticulatedInertia, InverseInertia, SpatialInertia};
 pub use lanes::{LaneMask, Lanes};
 pub use matrix::{Mat3, Sym3};
 pub use motion::{SpatialAcceleration, SpatialForce, SpatialMomentum, SpatialVelocity};

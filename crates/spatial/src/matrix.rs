@@ -54,7 +54,8 @@ impl<T: Real> Mat3<T> {
     #[inline(always)]
     #[must_use]
     pub fn scaled(&self, s: T) -> Self {
-        Self { rows: self.rows.map(|row| row * s) }
+        let [a, b, c] = self.rows;
+        Self::from_rows(a * s, b * s, c * s)
     }
     /// `R S Rᵀ` for a symmetric S.
     #[inline(always)]
@@ -73,7 +74,8 @@ impl<T: Real> Mat3<T> {
     /// Each element converted from `f64`.
     #[inline(always)]
     pub fn from_f64(m: Mat3<f64>) -> Self {
-        Self { rows: m.rows.map(Vec3::from_f64) }
+        let [a, b, c] = m.rows;
+        Self::from_rows(Vec3::from_f64(a), Vec3::from_f64(b), Vec3::from_f64(c))
     }
     /// Largest difference of `M Mᵀ` from the identity: zero for a rotation.
     pub fn orthogonality_error(&self) -> T {
@@ -94,7 +96,8 @@ impl<T: Real> Mul for Mat3<T> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, b: Self) -> Self {
-        Self { rows: self.rows.map(|row| b.transpose_mul(row)) }
+        let [x, y, z] = self.rows;
+        Self::from_rows(b.transpose_mul(x), b.transpose_mul(y), b.transpose_mul(z))
     }
 }
 impl<T: Real> Add for Mat3<T> {
@@ -163,6 +166,19 @@ impl<T: Real> Sym3<T> {
             zz: p.x * q.x + p.y * q.y,
         }
     }
+    /// `v vᵀ s`.
+    #[inline(always)]
+    pub fn dyad(v: Vec3<T>, s: T) -> Self {
+        let q = v * s;
+        Self {
+            xx: v.x * q.x,
+            xy: v.x * q.y,
+            xz: v.x * q.z,
+            yy: v.y * q.y,
+            yz: v.y * q.z,
+            zz: v.z * q.z,
+        }
+    }
     /// As a full matrix.
     #[inline(always)]
     pub fn to_mat3(self) -> Mat3<T> {
@@ -186,6 +202,15 @@ impl<T: Real> Sym3<T> {
         let z = y2 * d2;
         let y = y1 * d1 - l21 * z;
         vec3(y0 * d0 - l10 * y - l20 * z, y, z)
+    }
+    /// `S⁻¹` of a positive definite S, column by column.
+    #[inline(always)]
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        let (o, i) = (T::zero(), T::one());
+        let (x, y) = (self.solve(vec3(i, o, o)), self.solve(vec3(o, i, o)));
+        let z = self.solve(vec3(o, o, i));
+        Self { xx: x.x, xy: y.x, xz: z.x, yy: y.y, yz: z.y, zz: z.z }
     }
     /// `S s`, each element scaled.
     #[inline(always)]

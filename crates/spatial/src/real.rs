@@ -1,5 +1,6 @@
 //! The scalar that the core is written over: `f64`, `f32`, duals, and lanes.
 
+use crate::Lanes;
 use crate::trigonometry::{sin_cos_f32, sin_cos_f64};
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -52,6 +53,15 @@ pub trait Real:
     #[must_use]
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
 
+    /// Sines and cosines of the first `count` angles (rad), zeros behind them.
+    #[inline(always)]
+    fn sin_cos_each<const J: usize>(angles: &[Self; J], count: usize) -> ([Self; J], [Self; J]) {
+        let (mut sin, mut cos) = ([Self::zero(); J], [Self::zero(); J]);
+        for j in 0..count.min(J) {
+            (sin[j], cos[j]) = angles[j].sin_cos();
+        }
+        (sin, cos)
+    }
     /// Zero.
     #[inline(always)]
     #[must_use]
@@ -108,7 +118,7 @@ pub trait Scalar: Real<Mask = bool> + PartialOrd {
 }
 
 macro_rules! float {
-    ($float:ty, $sqrt:path, $sin_cos:path, $atan2:path, $acos:path, $exp:path, $ln:path) => {
+    ($float:ty, $sqrt:path, $sin_cos:path, $atan2:path, $acos:path, $exp:path, $ln:path, {$($more:tt)*}) => {
         impl Real for $float {
             type Mask = bool;
             #[inline(always)]
@@ -140,6 +150,7 @@ macro_rules! float {
             fn select(mask: bool, a: Self, b: Self) -> Self {
                 if mask { a } else { b }
             }
+            $($more)*
         }
         impl Scalar for $float {
             fn to_f64(self) -> f64 {
@@ -160,8 +171,26 @@ macro_rules! float {
         }
     };
 }
-float!(f64, libm::sqrt, sin_cos_f64, libm::atan2, libm::acos, libm::exp, libm::log);
-float!(f32, libm::sqrtf, sin_cos_f32, libm::atan2f, libm::acosf, libm::expf, libm::logf);
+float!(f64, libm::sqrt, sin_cos_f64, libm::atan2, libm::acos, libm::exp, libm::log, {
+    /// Eight angles at a time, as the lanes of one call.
+    #[inline(always)]
+    fn sin_cos_each<const J: usize>(angles: &[f64; J], count: usize) -> ([f64; J], [f64; J]) {
+        let (mut sin, mut cos) = ([0.0; J], [0.0; J]);
+        for first in (0..count.min(J)).step_by(8) {
+            let mut some = Lanes::<8>::default();
+            for (lane, angle) in some.0.iter_mut().zip(&angles[first..]) {
+                *lane = *angle;
+            }
+            let (s, c) = some.sin_cos();
+            let out = sin[first..].iter_mut().zip(&mut cos[first..]);
+            for ((sin, cos), (s, c)) in out.zip(s.0.iter().zip(&c.0)) {
+                (*sin, *cos) = (*s, *c);
+            }
+        }
+        (sin, cos)
+    }
+});
+float!(f32, libm::sqrtf, sin_cos_f32, libm::atan2f, libm::acosf, libm::expf, libm::logf, {});
 
 #[cfg(test)]
 mod tests {

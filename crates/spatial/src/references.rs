@@ -82,3 +82,7 @@ pub enum MarkleyCrassidis2014 {}
 /// W. J. Cody, W. Waite, *Software Manual for the Elementary Functions*, Prentice-Hall, 1980.
 #[derive(Debug)]
 pub enum CodyWaite1980 {}
+/// J. Luh, M. Walker, R. Paul, *On-line computational scheme for mechanical manipulators*, ASME
+/// Journal of Dynamic Systems, Measurement, and Control 102(2), 1980.
+#[derive(Debug)]
+pub enum LuhWalkerPaul1980 {}

@@ -140,7 +140,7 @@ fn the_attitude_held_jacobian_gives_the_twist_at_any_attitude_rate_and_momentum(
 fn a_force_from_outside_meets_less_inertia_than_one_from_the_joints() {
     for_every_robot(1e-13, |s| {
         let posture = Posture::new(s);
-        let columns = [&posture.J_frame.base[..], &posture.J_frame.joints[..posture.n]].concat();
+        let columns = [&posture.J_frame.base()[..], &posture.J_frame.joints[..posture.n]].concat();
         let J = dense_columns(&columns);
         let whole = &J * dense(&posture.M).cholesky().unwrap().solve(&J.transpose());
         let c = bias_force(&posture.k);
@@ -153,7 +153,7 @@ fn a_force_from_outside_meets_less_inertia_than_one_from_the_joints() {
 
 /// `B = J_b M_bb⁻¹ J_bᵀ`.
 fn base_mobility(posture: &Posture) -> DMatrix<f64> {
-    let J_b = dense_columns(&posture.J_frame.base);
+    let J_b = dense_columns(&posture.J_frame.base());
     let M_bb = dense(&posture.M).view((0, 0), (6, 6)).into_owned();
     &J_b * M_bb.cholesky().unwrap().solve(&J_b.transpose())
 }
@@ -202,7 +202,7 @@ fn a_free_flyer_presses_on_a_wall_with_less_than_its_joints_ask_for() {
         // The wall pushes on everything that moves the tip, base and joints.
         let all = |column: &SpatialVelocity<f64>| column.power(&n);
         let wall = Generalized {
-            base: SpatialForce::from_array(posture.J_frame.base.each_ref().map(all)),
+            base: SpatialForce::from_array(posture.J_frame.base().each_ref().map(all)),
             joints: posture.J_frame.joints.each_ref().map(all),
         };
         let along = |force| {

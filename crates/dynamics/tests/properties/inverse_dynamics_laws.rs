@@ -71,7 +71,8 @@ fn the_forces_are_mass_times_acceleration_plus_bias_less_what_comes_from_outside
             let J_body = jacobian(&k, &Frame { body, X_BF: Pose::identity() });
             let (R, F) = (k.X_NB(body).rotation, s.external[body]);
             let F_N = SpatialForce::new(R * F.torque, R * F.force);
-            let columns = J_body.base.iter().chain(&J_body.joints[..s.robot.joint_count()]);
+            let of_base = J_body.base();
+            let columns = of_base.iter().chain(&J_body.joints[..s.robot.joint_count()]);
             for (row, column) in columns.enumerate() {
                 sum[row] -= column.power(&F_N);
             }
@@ -121,10 +122,11 @@ fn the_bias_force_does_half_the_work_of_the_changing_mass_matrix() {
 }
 
 /// Where q̇ = v, `C` is made of the Christoffel symbols of the joint block, and with it `Ṁ - 2C` is
-/// skew; the base rests. Measured 6e-14.
+/// skew; the base rests. What cancels on the way is of the size of the mass matrix at unit rates:
+/// its rate is summed from turns of the axes that leave it alone. Measured 7e-15.
 #[test]
 fn the_bias_of_the_joints_is_the_christoffel_product_while_the_base_rests() {
-    for_every_robot(1e-12, |s| {
+    for_every_robot(1e-13, |s| {
         let n = s.robot.joint_count();
         let partial: Vec<DMatrix<f64>> = (0..n)
             .map(|k| {
@@ -144,7 +146,8 @@ fn the_bias_of_the_joints_is_the_christoffel_product_while_the_base_rests() {
         let state = State { V_NB_B: SpatialVelocity::zero(), ..s.state };
         let c = bias_force(&kinematics(&s.robot, &state));
         let c = nalgebra::DVector::from_column_slice(&c.joints[..n]);
-        let scale = size(&c).max(size(&C)).max(1e-3);
+        let M = dense(&mass_matrix(&kinematics(&s.robot, &state)));
+        let scale = size(&c).max(size(&C)).max(size(&M.view((6, 6), (n, n)).into_owned()));
         let mut Mdot = DMatrix::zeros(n, n);
         for k in 0..n {
             Mdot += &partial[k] * v[k];
