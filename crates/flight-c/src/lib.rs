@@ -1,9 +1,35 @@
 //! The control period for flight software in C: plain structs in, plain structs out, no heap.
+//!
+//! `include/wrasse_flight.h` is made from this crate. The library for a target with an operating system
+//! or without: `cargo rustc -p wrasse-flight-c --profile flight --crate-type staticlib --features
+//! panic-handler`.
 #![no_std]
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
+#![allow(non_camel_case_types, reason = "constants of an enum in C carry their prefix")]
 
+mod boundary;
+mod complaint;
+mod laws_table;
+#[cfg(feature = "panic-handler")]
+mod panic_handler;
+mod period_data;
 mod robot_table;
 
+pub use boundary::{
+    WRASSE_FLIGHT_WORDS, WrasseFlight, wrasse_flight_period, wrasse_flight_set_up,
+    wrasse_status_text,
+};
+pub use complaint::{WrasseComplaint, WrasseStatus};
+pub use laws_table::{
+    WRASSE_FEEDFORWARD_EXACT, WRASSE_FEEDFORWARD_NONE, WRASSE_LAW_ATTITUDE_HELD,
+    WRASSE_LAW_FREE_FLOATING, WRASSE_LAW_TERRESTRIAL, WRASSE_MEASURE_BASE, WRASSE_MEASURE_NOTHING,
+    WRASSE_TASK_POSE, WRASSE_TASK_POSITION, WrasseLaws,
+};
+pub use period_data::{
+    WRASSE_ASK_COAST, WRASSE_ASK_JOINTS, WRASSE_ASK_STILL, WRASSE_ASK_TOOL, WRASSE_AXES_BASE,
+    WRASSE_AXES_INERTIAL, WrasseAsked, WrasseSensed, WrasseTold,
+};
 pub use robot_table::{
-    WrasseBody, WrasseFrame, WrasseJoint, WrasseLink, frame_from_table, robot_from_tables,
+    WRASSE_JOINTS, WrasseBody, WrasseFrame, WrasseJoint, WrasseLink, frame_from_table,
+    robot_from_tables,
 };

@@ -1,7 +1,12 @@
 //! A robot as a table of plain numbers, as C knows it.
 
+use crate::complaint::{ONLY, Refused, WrasseStatus, each, finite, refused};
+use core::ffi::CStr;
 use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, Payload, Robot, RobotError};
 use wrasse_spatial::{Mat3, Pose, Real, Sym3, Vec3, vec3};
+
+/// Most links that a robot can have.
+pub const WRASSE_JOINTS: usize = 14;
 
 /// What a body is made of.
 #[repr(C)]
@@ -53,7 +58,7 @@ pub struct WrasseFrame {
     pub rotation: [[f64; 3]; 3],
 }
 
-fn vector<T: Real>([x, y, z]: [f64; 3]) -> Vec3<T> {
+pub(crate) fn vector<T: Real>([x, y, z]: [f64; 3]) -> Vec3<T> {
     vec3(T::from_f64(x), T::from_f64(y), T::from_f64(z))
 }
 
@@ -104,4 +109,68 @@ pub fn robot_from_tables<T: Real, const J: usize>(
         *to = (joint(&link.joint), payload(&link.body));
     }
     Robot::new(payload(base), table.get(..links.len()).unwrap_or(&table))
+}
+
+/// A base, its links and its tool are a robot.
+pub(crate) fn check(
+    base: &WrasseBody,
+    links: &[WrasseLink],
+    tool: &WrasseFrame,
+) -> Result<(), Refused> {
+    each(c"WrasseBody.mass of the base", &[base.mass], c"a mass above zero", |m| m > 0.0)?;
+    check_body(base, ONLY)?;
+    for (index, link) in links.iter().enumerate() {
+        check_joint(&link.joint, index)?;
+        check_body(&link.body, index)?;
+    }
+    let found = f64::from(tool.link);
+    if usize::try_from(tool.link).map_or(tool.link != -1, |link| link >= links.len()) {
+        let (field, expected) = (c"WrasseFrame.link", c"-1 or the number of a link");
+        return Err(refused(WrasseStatus::WRASSE_BAD_NUMBER, field, ONLY, found, expected));
+    }
+    finite(c"WrasseFrame.position", &tool.position)?;
+    check_rotation(c"WrasseFrame.rotation", &tool.rotation, ONLY)
+}
+
+fn check_joint(joint: &WrasseJoint, index: usize) -> Result<(), Refused> {
+    let parent = usize::try_from(joint.parent);
+    if parent.map_or(joint.parent != -1, |parent| parent >= index) {
+        let (status, found) = (WrasseStatus::WRASSE_PARENT_AFTER_CHILD, f64::from(joint.parent));
+        let expected = c"-1 or a number below its own";
+        return Err(refused(status, c"WrasseJoint.parent", index, found, expected));
+    }
+    if !(joint.sliding == 0 || joint.sliding == 1) {
+        let (status, found) = (WrasseStatus::WRASSE_UNKNOWN_CHOICE, f64::from(joint.sliding));
+        return Err(refused(status, c"WrasseJoint.sliding", index, found, c"0 or 1"));
+    }
+    let of_link = |r: Refused| r.of(index);
+    finite(c"WrasseJoint.position", &joint.position).map_err(of_link)?;
+    finite(c"WrasseJoint.axis", &joint.axis).map_err(of_link)?;
+    let square: f64 = joint.axis.iter().map(|x| x * x).sum();
+    each(c"WrasseJoint.axis, its square", &[square], c"a vector that is not zero", |s| s > 1e-12)
+        .map_err(of_link)?;
+    check_rotation(c"WrasseJoint.rotation", &joint.rotation, index)
+}
+
+/// Mass and moments of inertia that matter can have.
+fn check_body(body: &WrasseBody, index: usize) -> Result<(), Refused> {
+    let of_link = |r: Refused| r.of(index);
+    each(c"WrasseBody.mass", &[body.mass], c"zero or more", |m| m >= 0.0).map_err(of_link)?;
+    finite(c"WrasseBody.centre_of_mass", &body.centre_of_mass).map_err(of_link)?;
+    finite(c"WrasseBody.inertia", &body.inertia).map_err(of_link)?;
+    let [xx, yy, zz, ..] = body.inertia;
+    let spare = [xx, yy, zz, yy + zz - xx, zz + xx - yy, xx + yy - zz];
+    let size = xx + yy + zz;
+    let expected = c"moments above zero, none above the sum of the other two";
+    each(c"WrasseBody.inertia", &spare, expected, |s| s >= -1e-9 * size).map_err(of_link)
+}
+
+fn check_rotation(field: &'static CStr, rows: &[[f64; 3]; 3], index: usize) -> Result<(), Refused> {
+    rows.iter().try_for_each(|row| finite(field, row)).map_err(|r| r.of(index))?;
+    let [x, y, z] = rows.map(vector);
+    let R: Mat3<f64> = Mat3::from_rows(x, y, z);
+    let (error, turn) = (R.orthogonality_error(), x.cross(y).dot(z));
+    let expected = c"rows of length 1 at right angles, right-handed; found is the error";
+    let is_rotation = |error: f64| error < 1e-6 && turn > 0.0;
+    each(field, &[error], expected, is_rotation).map_err(|r| r.of(index))
 }

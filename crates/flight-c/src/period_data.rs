@@ -1,0 +1,194 @@
+//! What goes into a control period and what comes out, as C knows it.
+
+use crate::complaint::{ONLY, Refused, WrasseStatus, choice, finite, refused, unit};
+use crate::laws_table::first;
+use crate::robot_table::{WRASSE_JOINTS, vector};
+use wrasse_dynamics::State;
+use wrasse_flight::trajectory::{JointSetPoint, ToolMotion};
+use wrasse_flight::{Asked, Axes, Told};
+use wrasse_spatial::{Pose, Quat, SpatialForce, SpatialVelocity};
+
+/// The tool follows a motion.
+pub const WRASSE_ASK_TOOL: i32 = 0;
+/// The joints follow a motion.
+pub const WRASSE_ASK_JOINTS: i32 = 1;
+/// The joints stand still where they were sent last.
+pub const WRASSE_ASK_STILL: i32 = 2;
+/// Nothing is driven.
+pub const WRASSE_ASK_COAST: i32 = 3;
+
+/// The tool's motion is in inertial axes.
+pub const WRASSE_AXES_INERTIAL: i32 = 0;
+/// The tool's motion is relative to the base, in its axes.
+pub const WRASSE_AXES_BASE: i32 = 1;
+
+/// What the sensors say at the start of a period.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WrasseSensed {
+    /// Attitude of the base: quaternion w, x, y, z from base axes to inertial axes (–).
+    pub attitude: [f64; 4],
+    /// Origin of the base, inertial axes (m).
+    pub position: [f64; 3],
+    /// Rate of the base, base axes (rad/s).
+    pub angular_velocity: [f64; 3],
+    /// Velocity of the base's origin, base axes (m/s).
+    pub velocity: [f64; 3],
+    /// Joint positions (rad or m).
+    pub joint_position: [f64; WRASSE_JOINTS],
+    /// Joint rates (rad/s or m/s).
+    pub joint_rate: [f64; WRASSE_JOINTS],
+    /// 1 if a push at the tool is felt, 0 if not.
+    pub wrench_felt: i32,
+    /// That push at the tool's origin, tool axes: torque (N·m), then force (N).
+    pub wrench: [f64; 6],
+}
+
+/// What is asked at the end of a period.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WrasseAsked {
+    /// One of `WRASSE_ASK_...`.
+    pub kind: i32,
+    /// One of `WRASSE_AXES_...`; for the tool.
+    pub axes: i32,
+    /// Where the tool should be (m).
+    pub tool_position: [f64; 3],
+    /// How it should be turned: quaternion w, x, y, z from tool axes to the axes of the motion (–).
+    pub tool_attitude: [f64; 4],
+    /// Its velocity: angular (rad/s), then linear (m/s).
+    pub tool_velocity: [f64; 6],
+    /// Time derivative of that (rad/s², m/s²).
+    pub tool_acceleration: [f64; 6],
+    /// Drift towards the posture of the laws (1/s); zero for joint rates of least norm.
+    pub posture_gain: f64,
+    /// How fast that gain changes (1/s²).
+    pub posture_gain_rate: f64,
+    /// Where the joints should be (rad or m).
+    pub joint_position: [f64; WRASSE_JOINTS],
+    /// Their rates (rad/s or m/s).
+    pub joint_rate: [f64; WRASSE_JOINTS],
+    /// Their accelerations (rad/s² or m/s²).
+    pub joint_acceleration: [f64; WRASSE_JOINTS],
+}
+
+/// What the actuators are told for the period.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct WrasseTold {
+    /// Where each joint should be at its end (rad or m).
+    pub joint_position: [f64; WRASSE_JOINTS],
+    /// Rates there (rad/s or m/s).
+    pub joint_rate: [f64; WRASSE_JOINTS],
+    /// Accelerations there (rad/s² or m/s²).
+    pub joint_acceleration: [f64; WRASSE_JOINTS],
+    /// Torque or force of each joint over the period (N·m or N).
+    pub effort: [f64; WRASSE_JOINTS],
+    /// Torque that the base should feel over the period, base axes (N·m).
+    pub attitude_torque: [f64; 3],
+    /// Force that is known to be needed against a push at the tool, base axes (N).
+    pub force_ahead: [f64; 3],
+}
+
+fn rotated(attitude: [f64; 4], position: [f64; 3]) -> Pose<f64> {
+    let [w, x, y, z] = attitude;
+    Pose::from_quat(Quat::new(w, x, y, z).normalized(), vector(position))
+}
+
+fn twist([a, b, c, d, e, f]: [f64; 6]) -> SpatialVelocity<f64> {
+    SpatialVelocity::new(vector([a, b, c]), vector([d, e, f]))
+}
+
+/// Joint numbers, those of joints that are not there set to zero.
+fn joints(all: &[f64; WRASSE_JOINTS], links: usize) -> [f64; WRASSE_JOINTS] {
+    let mut kept = *all;
+    kept.iter_mut().skip(links).for_each(|x| *x = 0.0);
+    kept
+}
+
+impl WrasseSensed {
+    /// The state of a robot of so many links, and the push at its tool.
+    pub(crate) fn read(
+        &self,
+        links: usize,
+    ) -> Result<(State<f64, WRASSE_JOINTS>, Option<SpatialForce<f64>>), Refused> {
+        unit(c"WrasseSensed.attitude", &self.attitude)?;
+        finite(c"WrasseSensed.position", &self.position)?;
+        finite(c"WrasseSensed.angular_velocity", &self.angular_velocity)?;
+        finite(c"WrasseSensed.velocity", &self.velocity)?;
+        finite(c"WrasseSensed.joint_position", first(&self.joint_position, links))?;
+        finite(c"WrasseSensed.joint_rate", first(&self.joint_rate, links))?;
+        let felt = choice(c"WrasseSensed.wrench_felt", self.wrench_felt, [false, true])?;
+        if felt {
+            finite(c"WrasseSensed.wrench", &self.wrench)?;
+        }
+        let state = State {
+            X_NB: rotated(self.attitude, self.position),
+            V_NB_B: SpatialVelocity::new(vector(self.angular_velocity), vector(self.velocity)),
+            q: joints(&self.joint_position, links),
+            v: joints(&self.joint_rate, links),
+        };
+        let [a, b, c, d, e, f] = self.wrench;
+        let push = SpatialForce::new(vector([a, b, c]), vector([d, e, f]));
+        Ok((state, felt.then_some(push)))
+    }
+}
+
+impl WrasseAsked {
+    /// What is asked of a robot of so many links.
+    pub(crate) fn read(&self, links: usize) -> Result<Asked<f64, WRASSE_JOINTS>, Refused> {
+        match self.kind {
+            WRASSE_ASK_TOOL => self.tool(),
+            WRASSE_ASK_JOINTS => {
+                finite(c"WrasseAsked.joint_position", first(&self.joint_position, links))?;
+                finite(c"WrasseAsked.joint_rate", first(&self.joint_rate, links))?;
+                finite(c"WrasseAsked.joint_acceleration", first(&self.joint_acceleration, links))?;
+                Ok(Asked::Joints(JointSetPoint {
+                    q: joints(&self.joint_position, links),
+                    v: joints(&self.joint_rate, links),
+                    vdot: joints(&self.joint_acceleration, links),
+                }))
+            }
+            WRASSE_ASK_STILL => Ok(Asked::Still),
+            WRASSE_ASK_COAST => Ok(Asked::Coast),
+            _ => {
+                let (status, found) = (WrasseStatus::WRASSE_UNKNOWN_CHOICE, f64::from(self.kind));
+                Err(refused(status, c"WrasseAsked.kind", ONLY, found, c"one of its constants"))
+            }
+        }
+    }
+
+    fn tool(&self) -> Result<Asked<f64, WRASSE_JOINTS>, Refused> {
+        let axes = choice(c"WrasseAsked.axes", self.axes, [Axes::Inertial, Axes::Base])?;
+        finite(c"WrasseAsked.tool_position", &self.tool_position)?;
+        unit(c"WrasseAsked.tool_attitude", &self.tool_attitude)?;
+        finite(c"WrasseAsked.tool_velocity", &self.tool_velocity)?;
+        finite(c"WrasseAsked.tool_acceleration", &self.tool_acceleration)?;
+        finite(c"WrasseAsked.posture_gain", &[self.posture_gain])?;
+        finite(c"WrasseAsked.posture_gain_rate", &[self.posture_gain_rate])?;
+        Ok(Asked::Tool {
+            reference: ToolMotion {
+                X_NE: rotated(self.tool_attitude, self.tool_position),
+                V_NE_N: twist(self.tool_velocity),
+                Vdot_NE_N: twist(self.tool_acceleration),
+            },
+            axes,
+            gain: self.posture_gain,
+            gain_rate: self.posture_gain_rate,
+        })
+    }
+}
+
+impl WrasseTold {
+    /// What a period told.
+    pub(crate) fn from_told(told: &Told<f64, WRASSE_JOINTS>) -> Self {
+        Self {
+            joint_position: told.set_points.map(|s| s.position),
+            joint_rate: told.set_points.map(|s| s.rate),
+            joint_acceleration: told.set_points.map(|s| s.acceleration),
+            effort: told.effort,
+            attitude_torque: told.attitude_torque_B.to_array(),
+            force_ahead: told.ahead_force_B.to_array(),
+        }
+    }
+}

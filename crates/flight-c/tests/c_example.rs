@@ -1,0 +1,133 @@
+//! The example in C, compiled by a C compiler, gives what Rust gives.
+#![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
+#![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
+#![allow(clippy::print_stderr, reason = "what is skipped is said loudly")]
+
+use std::env;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use wrasse_dynamics::{Frame, Robot, State};
+use wrasse_flight::trajectory::ToolMotion;
+use wrasse_flight::{
+    ArmLaw, Asked, Assignment, Axes, BaseControlSetup, Feedforward, JointUse, Measurement,
+    NavigationSetup, PeriodMemory, Setup, Task, Told, Tuning, control_period,
+};
+use wrasse_flight_c::{WRASSE_JOINTS, WrasseFlight};
+use wrasse_hardware::JointLimits;
+use wrasse_spatial::{Mat3, Pose, Quat, SpatialVelocity, vec3};
+use wrasse_vehicle::{Vehicle, catalogue};
+
+/// Run a command; what it says of itself when it fails.
+#[track_caller]
+fn run(command: &mut Command) -> String {
+    let Output { status, stdout, stderr } = command.output().unwrap();
+    assert!(status.success(), "{command:?}: {status}\n{}", String::from_utf8_lossy(&stderr));
+    String::from_utf8(stdout).unwrap()
+}
+
+/// The C compiler, if there is one; in CI there must be one.
+fn c_compiler() -> Option<&'static str> {
+    let found = Command::new("cc").arg("--version").output().is_ok_and(|o| o.status.success());
+    if !found {
+        assert!(env::var_os("WRASSE_REQUIRE_TOOLS").is_none(), "no C compiler `cc`");
+        eprintln!("SKIPPED: the example in C was not run, there is no C compiler `cc`");
+    }
+    found.then_some("cc")
+}
+
+/// Build the static library as flight software would; where it lies.
+fn library(target: &Path) -> PathBuf {
+    let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
+    run(Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
+        .args(["rustc", "--quiet", "--profile", "flight", "--crate-type", "staticlib"])
+        .args(["--features", "panic-handler", "--manifest-path"])
+        .arg(manifest)
+        .env("CARGO_TARGET_DIR", target));
+    target.join("flight").join("libwrasse_flight_c.a")
+}
+
+fn atlas_class() -> Vehicle {
+    catalogue().iter().find(|entry| entry.name == "atlas-class").unwrap().read().unwrap()
+}
+
+/// The same two periods in Rust, with the robot of the catalogue.
+fn in_rust() -> Told<f64, 20> {
+    let vehicle = atlas_class();
+    let robot: &Robot<f64, 20> = &vehicle.robot;
+    let tool: Frame<f64> = vehicle.frame(&vehicle.tools[0]).unwrap();
+    let setup = Setup {
+        assignment: Assignment {
+            tool,
+            axes: Axes::Inertial,
+            task: Task::Pose,
+            law: ArmLaw::AttitudeHeld,
+            damped_below: 0.02,
+        },
+        joints: JointUse { gain: 0.0, gain_rate: 0.0, posture: [0.0; 20], rate_limit: [0.2; 20] },
+        base: BaseControlSetup::ideal(Feedforward::Exact, Quat::identity()),
+        navigation: NavigationSetup::perfect(),
+        measurement: Measurement::Base,
+        tuning: Tuning {
+            period: 0.01,
+            tool_gain: 2.0,
+            joint_bandwidth: 10.0,
+            joint_damping: 1.0,
+            attitude_bandwidth: 0.3,
+            attitude_damping: 1.0,
+        },
+        limits: [JointLimits { effort: Some(500.0), ..JointLimits::default() }; 20],
+    };
+    let mut state = State::default();
+    state.V_NB_B.angular = vec3(0.001, -0.002, 0.0005);
+    for (j, q) in [0.2, -0.6, -0.6, 1.9, -0.3, -1.3, 0.4].into_iter().enumerate() {
+        state.q[j] = q;
+        state.v[j] = 0.01 * (f64::from(u8::try_from(j).unwrap()) - 3.0);
+    }
+    let mut memory = PeriodMemory::new();
+    control_period(robot, &setup, &mut memory, &state, &Asked::Still, None);
+    let reference = ToolMotion {
+        X_NE: Pose::new(Mat3::identity(), vec3(1.5, 0.4, 0.1)),
+        V_NE_N: SpatialVelocity::from_array([0.0, 0.0, 0.0, 0.05, 0.0, 0.0]),
+        Vdot_NE_N: SpatialVelocity::zero(),
+    };
+    let asked = Asked::Tool { reference, axes: Axes::Inertial, gain: 0.0, gain_rate: 0.0 };
+    control_period(robot, &setup, &mut memory, &state, &asked, None)
+}
+
+/// Round-off of a control period: the table holds central inertias, the catalogue those about the
+/// origin. Measured 0 of the largest of each kind.
+#[test]
+fn the_example_in_c_is_told_what_rust_is_told() {
+    let Some(cc) = c_compiler() else { return };
+    let crate_folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let program = target.join("one_period");
+    run(Command::new(cc)
+        .args(["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-O2", "-I"])
+        .arg(crate_folder.join("../../include"))
+        .arg(crate_folder.join("c/one_period.c"))
+        .arg(library(target))
+        .args(["-lm", "-o"])
+        .arg(&program));
+    let printed = run(&mut Command::new(&program));
+    let rows: Vec<Vec<f64>> = printed
+        .lines()
+        .map(|line| line.split(' ').map(|word| word.parse().unwrap()).collect())
+        .collect();
+    let told = in_rust();
+    let mut expected: Vec<Vec<f64>> = (0..7)
+        .map(|j| vec![told.set_points[j].position, told.set_points[j].rate, told.effort[j]])
+        .collect();
+    expected.push(told.attitude_torque_B.to_array().to_vec());
+    assert_eq!(rows.len(), expected.len(), "{printed}");
+    for kind in 0..3 {
+        let size = expected[..7].iter().map(|row| row[kind].abs()).fold(0.0, f64::max);
+        let apart = (0..8).map(|k| (rows[k][kind] - expected[k][kind]).abs()).fold(0.0, f64::max);
+        assert!(size > 1e-3 && apart <= 1e-12 * size, "column {kind}: {apart:e} of {size}");
+    }
+}
+
+#[test]
+fn the_memory_that_c_gives_is_as_large_as_the_header_says() {
+    assert_eq!((size_of::<WrasseFlight>(), WRASSE_JOINTS), (16 * 1024, 14));
+}
