@@ -51,7 +51,7 @@ pub(crate) fn ci() -> Result<(), String> {
 }
 
 /// Run cargo in the root of the repository and wait for it.
-fn cargo(arguments: &[&str], variable: Option<(&str, &str)>) -> Result<(), String> {
+pub(crate) fn cargo(arguments: &[&str], variable: Option<(&str, &str)>) -> Result<(), String> {
     let line = format!("cargo {}", arguments.join(" "));
     eprintln!("== {line}");
     // The cargo that runs this chore, so that one toolchain does it all.

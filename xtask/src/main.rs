@@ -1,6 +1,7 @@
 //! The project's own chores: `cargo xtask test`, `cargo xtask tidy`, `cargo xtask ci` and others.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "chores talk to their caller")]
 
+mod bench;
 mod chores;
 mod counts;
 mod embedded;
@@ -14,6 +15,7 @@ usage: cargo xtask CHORE
 
   test [ARGS]   all tests: unit, integration and documentation tests of the whole workspace;
                 ARGS go to `cargo test`
+  bench         times of the kernels beside Pinocchio and MuJoCo, as a page of the book
   tidy          rules of the repository that no compiler knows
   counts [--require | --accept | --release]
                 instructions of the main kernels, counted by callgrind and held against
@@ -33,6 +35,7 @@ fn main() -> ExitCode {
     };
     let outcome = match chore {
         "test" => chores::test(rest),
+        "bench" => bench::bench(),
         "tidy" => tidy::report(),
         "counts" => counts::counts(rest),
         "embedded" => embedded::embedded(rest),

@@ -6,6 +6,8 @@
 #![no_std]
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
+#[cfg(feature = "counted")]
+mod counted;
 mod dual;
 mod inertia;
 mod lanes;
@@ -19,6 +21,8 @@ mod rotation_vector;
 mod trigonometry;
 mod vector;
 
+#[cfg(feature = "counted")]
+pub use counted::Counted;
 pub use dual::Dual;
 pub use inertia::{ArticulatedInertia, InverseInertia, SpatialInertia};
 pub use lanes::{LaneMask, Lanes};

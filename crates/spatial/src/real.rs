@@ -11,6 +11,8 @@ mod sealed {
     impl Sealed for f32 {}
     impl<T: Sealed> Sealed for crate::Dual<T> {}
     impl<const N: usize> Sealed for crate::Lanes<N> {}
+    #[cfg(feature = "counted")]
+    impl Sealed for crate::Counted {}
 }
 
 /// A real number, or several of them side by side. Kernels never branch on its value: they

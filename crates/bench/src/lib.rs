@@ -1,0 +1,8 @@
+//! What is timed: the vehicles, their states, and the kernels over any scalar.
+#![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
+
+mod kernels;
+mod subjects;
+
+pub use kernels::{KERNELS, Quantity, Work};
+pub use subjects::{STATES, Subject, subject, widened};
