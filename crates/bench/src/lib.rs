@@ -5,4 +5,4 @@ mod kernels;
 mod subjects;
 
 pub use kernels::{KERNELS, Quantity, Work};
-pub use subjects::{STATES, Subject, subject, widened};
+pub use subjects::{Moment, STATES, Subject, subject, widened};

@@ -8,13 +8,16 @@ use wrasse_world::Noise;
 /// States of each subject, taken in turn.
 pub const STATES: usize = 64;
 
+/// A state and accelerations (or forces of the same numbers).
+pub type Moment<T, const J: usize> = (State<T, J>, GeneralizedVelocity<T, J>);
+
 /// A robot with room for exactly its joints, and states with accelerations.
 #[derive(Debug)]
 pub struct Subject<T, const J: usize> {
     /// The robot.
     pub robot: Robot<T, J>,
-    /// States and accelerations (or forces of the same numbers).
-    pub states: Vec<(State<T, J>, GeneralizedVelocity<T, J>)>,
+    /// States with accelerations.
+    pub states: Vec<Moment<T, J>>,
 }
 
 /// A vehicle of `validation/golden` by its name, and random states of it.
@@ -39,9 +42,7 @@ pub fn subject<const J: usize>(name: &str) -> Result<Subject<f64, J>, String> {
     Ok(Subject { robot, states })
 }
 
-fn state<const J: usize>(
-    u: &mut impl FnMut() -> f64,
-) -> (State<f64, J>, GeneralizedVelocity<f64, J>) {
+fn state<const J: usize>(u: &mut impl FnMut() -> f64) -> Moment<f64, J> {
     let mut six = || [u(), u(), u(), u(), u(), u()];
     let (turn, twist, acceleration) = (six(), six(), six());
     let quat_NB = Quat::exp(vec3(turn[0], turn[1], turn[2]));
@@ -58,7 +59,7 @@ fn state<const J: usize>(
 /// The same with eight consecutive states side by side.
 pub fn widened<const J: usize>(one: &Subject<f64, J>) -> Subject<Lanes<8>, J> {
     let states = (0..STATES).map(|first| {
-        let many = |pick: &dyn Fn(&(State<f64, J>, GeneralizedVelocity<f64, J>)) -> f64| {
+        let many = |pick: &dyn Fn(&Moment<f64, J>) -> f64| {
             Lanes::<8>::from_fn(|lane| pick(&one.states[(first + lane) % STATES]))
         };
         let twist = std::array::from_fn(|i| many(&|s| s.0.V_NB_B.to_array()[i]));

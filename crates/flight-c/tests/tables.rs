@@ -70,7 +70,9 @@ fn in_rust(vehicle: &Vehicle) -> String {
     writeln!(text, "#[rustfmt::skip]\npub(crate) const TOOL: WrasseFrame = {frame:?};\n").unwrap();
     let count = links.len();
     writeln!(text, "#[rustfmt::skip]\npub(crate) const LINKS: [WrasseLink; {count}] = [").unwrap();
-    links.iter().for_each(|link| writeln!(text, "    {link:?},").unwrap());
+    for link in &links {
+        writeln!(text, "    {link:?},").unwrap();
+    }
     text + "];\n"
 }
 
