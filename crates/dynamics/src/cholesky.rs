@@ -56,15 +56,15 @@ impl<T: Real, const N: usize> Cholesky<T, N> {
     #[inline(always)]
     #[must_use]
     pub fn solve(&self, b: &[T; N]) -> [T; N] {
-        let mut x = *b;
-        for i in 0..self.n {
+        let (mut x, n) = (*b, self.n.min(N));
+        for i in 0..n {
             for k in 0..i {
                 x[i] -= self.L[i][k] * x[k];
             }
             x[i] *= self.inverse_diagonal[i];
         }
-        for i in (0..self.n).rev() {
-            for k in i + 1..self.n {
+        for i in (0..n).rev() {
+            for k in i + 1..n {
                 x[i] -= self.L[k][i] * x[k];
             }
             x[i] *= self.inverse_diagonal[i];

@@ -1,5 +1,6 @@
 //! Poses and turning rates of all bodies, base to tips.
 
+use crate::robot::within;
 use crate::{BodyId, Frame, PerBody, Robot, State};
 use wrasse_spatial::{Mat3, Pose, Real, SpatialVelocity, Vec3};
 
@@ -43,7 +44,7 @@ pub fn kinematics<'a, T: Real, const J: usize>(
         let X_PB = joint.X_PB_turned(state.q[j], sin[j], cos[j]);
         let w_NP_P = match joint.parent {
             BodyId::Base => &state.V_NB_B.angular,
-            BodyId::Link(p) => &k.links[p].w_NB_B,
+            BodyId::Link(p) => &k.links[within::<J>(p)].w_NB_B,
         };
         let w_NB_B = X_PB.rotation.transpose_mul(*w_NP_P) + joint.turning(state.v[j]);
         k.links[j] = Link { X_PB, w_NB_B };
@@ -57,7 +58,7 @@ impl<T: Real, const J: usize> Kinematics<'_, T, J> {
     pub fn X_NB(&self, body: BodyId) -> Pose<T> {
         let (mut X, mut at) = (Pose::identity(), body);
         while let BodyId::Link(j) = at {
-            X = self.links[j].X_PB * X;
+            X = self.links[within::<J>(j)].X_PB * X;
             at = self.robot.joint(j).parent;
         }
         self.state.X_NB * X
@@ -76,7 +77,7 @@ impl<T: Real, const J: usize> Kinematics<'_, T, J> {
     pub fn w_NB_B(&self, body: BodyId) -> Vec3<T> {
         match body {
             BodyId::Base => self.state.V_NB_B.angular,
-            BodyId::Link(j) => self.links[j].w_NB_B,
+            BodyId::Link(j) => self.links[within::<J>(j)].w_NB_B,
         }
     }
     /// Twist `V_NB_B` of a body (rad/s, m/s).

@@ -1,5 +1,6 @@
 //! The mass matrix, in the blocks that the theory names.
 
+use crate::robot::within;
 use crate::{BodyId, Kinematics, PerBody};
 use core::ops::Deref;
 use wrasse_spatial::{Mat3, Real, SpatialForce, SpatialInertia, Vec3};
@@ -66,6 +67,7 @@ pub fn mass_matrix<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> MassMat
         let (mut p_PL_B, mut parent) = (link.p_PL_B, k.robot.joint(j).parent);
         // The same momentum, about the origin of each link on the way to the base.
         while let BodyId::Link(p) = parent {
+            let p = within::<J>(p);
             let below = &carried.links[p];
             F = F.about(-p_PL_B);
             let coupling = k.robot.joint(p).project_on(below.axis_B, &F);

@@ -187,6 +187,13 @@ impl<T: Real> Payload<T> {
     }
 }
 
+/// The number of a joint, with a bound that the compiler sees: no robot has another, and code without
+/// a panic is what flies.
+#[inline(always)]
+pub(crate) fn within<const J: usize>(j: usize) -> usize {
+    j.min(J.saturating_sub(1))
+}
+
 /// Something for each body: one for the base, one for each link.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PerBody<E, const J: usize> {
@@ -209,7 +216,7 @@ impl<E, const J: usize> Index<BodyId> for PerBody<E, J> {
     fn index(&self, body: BodyId) -> &E {
         match body {
             BodyId::Base => &self.base,
-            BodyId::Link(j) => &self.links[j],
+            BodyId::Link(j) => &self.links[within::<J>(j)],
         }
     }
 }
@@ -218,7 +225,7 @@ impl<E, const J: usize> IndexMut<BodyId> for PerBody<E, J> {
     fn index_mut(&mut self, body: BodyId) -> &mut E {
         match body {
             BodyId::Base => &mut self.base,
-            BodyId::Link(j) => &mut self.links[j],
+            BodyId::Link(j) => &mut self.links[within::<J>(j)],
         }
     }
 }
@@ -309,7 +316,7 @@ impl<T: Real, const J: usize> Robot<T, J> {
     /// A joint.
     #[inline(always)]
     pub fn joint(&self, j: usize) -> &Joint<T> {
-        &self.joints[j]
+        &self.joints[within::<J>(j)]
     }
     /// `M_B_B` of a body about its origin.
     #[inline(always)]
@@ -344,6 +351,7 @@ impl<T: Real, const J: usize> Robot<T, J> {
         core::iter::from_fn(move || match at {
             BodyId::Base => None,
             BodyId::Link(j) => {
+                let j = within::<J>(j);
                 at = self.joints[j].parent;
                 Some(j)
             }

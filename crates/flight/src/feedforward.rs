@@ -40,7 +40,7 @@ fn exact<T: Real, const J: usize>(robot: &Robot<T, J>, joints: &[SetPoint<T>; J]
 fn printed<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     joints: &[SetPoint<T>; J],
-    pick: fn(&PrintedReaction<T>) -> Vec3<T>,
+    pick: impl Fn(&PrintedReaction<T>) -> Vec3<T>,
 ) -> Vec3<T> {
     // The base stands in the origin of its own axes, so that all comes out in base axes.
     let state =
