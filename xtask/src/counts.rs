@@ -43,6 +43,7 @@ pub(crate) fn counts(arguments: &[String]) -> Result<(), String> {
     };
     let counted = callgrind::count()?;
     println!("{version}; {}\n{}", counted.compiler, counted.table());
+    println!("{}", counted.against_budget());
     let path = repository_root().join(FILE);
     let accepted = Accepted::read(&fs::read_to_string(&path).unwrap_or_default())?;
     if matches!(wish, Wish::Accept | Wish::Release) {
@@ -52,6 +53,6 @@ pub(crate) fn counts(arguments: &[String]) -> Result<(), String> {
     let changelog = fs::read_to_string(repository_root().join("CHANGELOG.md")).unwrap_or_default();
     let mut findings = accepted.against(&counted);
     findings.extend(accepted.unstated(&changelog));
-    findings.extend(counted.over_budget());
+    findings.extend(counted.uneven());
     if findings.is_empty() { Ok(()) } else { Err(findings.join("\n")) }
 }

@@ -15,7 +15,8 @@ const COUNTED: &str = "counted::counted";
 /// would depend on it.
 const PLAIN_COPIES: &str = "glibc.cpu.hwcaps=-AVX512F,-AVX512VL,-AVX2,-AVX,-ERMS,-FSRM,-SSSE3";
 
-/// Most instructions of one control period of one seven-joint arm, `f64`, on the host.
+/// Most instructions that one control period of one seven-joint arm should take, `f64`, on the host:
+/// a target, whose miss is told and does not fail.
 const BUDGET: u64 = 25_000;
 
 /// What the budget is for: the law that the paper uses and the one that leaves the base free.
@@ -109,8 +110,23 @@ impl Counted {
         text
     }
 
-    /// Where the control period takes more than its budget, or more in some states than in others.
-    pub(super) fn over_budget(&self) -> Vec<String> {
+    /// How the worst state of the control period stands to its budget, one law a line.
+    pub(super) fn against_budget(&self) -> String {
+        let mut text = String::new();
+        for name in BUDGETED {
+            let Some(Spread { largest, .. }) = self.kernels.get(name) else { continue };
+            let verdict = if *largest > BUDGET { "MISSED" } else { "met" };
+            let share = *largest as f64 / BUDGET as f64;
+            let _ = writeln!(
+                text,
+                "target of {BUDGET} instructions {verdict}: {name} takes {largest} ({share:.2} of it)"
+            );
+        }
+        text
+    }
+
+    /// Where the control period is not counted, or takes much more in some states than in others.
+    pub(super) fn uneven(&self) -> Vec<String> {
         let mut findings = Vec::new();
         for name in BUDGETED {
             let Some(found) = self.kernels.get(name) else {
@@ -118,9 +134,6 @@ impl Counted {
                 continue;
             };
             let Spread { median, largest, .. } = *found;
-            if largest > BUDGET {
-                findings.push(format!("{name}: {largest} instructions, the budget is {BUDGET}"));
-            }
             if largest as f64 > median as f64 * (1.0 + SPREAD) {
                 findings.push(format!(
                     "{name}: {largest} instructions in the worst state, {median} in the median: at most \
@@ -151,9 +164,18 @@ mod tests {
     }
 
     #[test]
-    fn a_period_over_its_budget_or_uneven_is_told() {
-        assert!(periods(24_000, 25_000).over_budget().is_empty());
-        assert_eq!(periods(24_000, 25_001).over_budget().len(), 2);
-        assert_eq!(periods(20_000, 22_100).over_budget().len(), 2);
+    fn a_period_over_its_budget_is_told_and_does_not_fail() {
+        assert!(periods(24_000, 25_000).against_budget().contains("met: control_period_held/7"));
+        let missed = periods(30_000, 30_000);
+        assert_eq!(missed.against_budget().matches("MISSED").count(), 2);
+        assert!(missed.uneven().is_empty());
+    }
+
+    #[test]
+    fn a_period_that_is_uneven_or_not_counted_fails() {
+        assert!(periods(20_000, 22_000).uneven().is_empty());
+        assert_eq!(periods(20_000, 22_100).uneven().len(), 2);
+        let nothing = Counted { compiler: String::new(), kernels: BTreeMap::new() };
+        assert_eq!(nothing.uneven().len(), 2);
     }
 }
