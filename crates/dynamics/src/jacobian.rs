@@ -1,5 +1,6 @@
 //! The Jacobian of a frame and what its change adds to the acceleration.
 
+use crate::robot::within;
 use crate::{BodyId, Frame, Generalized, GeneralizedVelocity, Kinematics, PerBody};
 use core::array;
 use wrasse_spatial::{Mat3, Real, SpatialAcceleration, SpatialVelocity, Vec3};
@@ -52,6 +53,7 @@ pub fn jacobian<T: Real, const J: usize>(
     let mut joints = [SpatialVelocity::zero(); J];
     let mut at = frame.body;
     while let BodyId::Link(j) = at {
+        let j = within::<J>(j);
         // Twist of the link for unit rate, carried to E.
         let (joint, X_NL) = (k.robot.joint(j), &X_NB.links[j]);
         let at_L = joint.motion_along(X_NL.rotation * joint.axis_B, T::one());
