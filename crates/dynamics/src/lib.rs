@@ -24,6 +24,7 @@ mod reaction;
 mod reaction_null_space;
 mod reduced_inertia;
 mod robot;
+mod side_by_side;
 
 pub use attitude_held_jacobian::attitude_held_jacobian;
 pub use barycentric_vectors::{barycentric_vectors, virtual_manipulator};

@@ -233,9 +233,9 @@ impl<E, const J: usize> IndexMut<BodyId> for PerBody<E, J> {
 /// A tree of bodies on a free-flying base: at most `J` joints, parents before children.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Robot<T, const J: usize> {
-    count: usize,
-    joints: [Joint<T>; J],
-    matter: PerBody<Payload<T>, J>,
+    pub(crate) count: usize,
+    pub(crate) joints: [Joint<T>; J],
+    pub(crate) matter: PerBody<Payload<T>, J>,
 }
 
 /// Why a robot cannot be built.

@@ -2,7 +2,7 @@
 
 use crate::computer::FlightComputer;
 use crate::navigation::Navigation;
-use crate::phase::{Held, Path};
+use crate::phase::Path;
 use crate::resolved_motion::{Assignment, task_jacobian};
 use crate::tool_pose::{Unreachable, joints_for_tool};
 use wrasse_dynamics::{Frame, Robot, State};
@@ -56,7 +56,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
 
     /// Whether the current phase moves the tool along a line.
     pub fn follows_tool(&self) -> bool {
-        matches!(self.guidance.path, Path::Line(..) | Path::Still(Held::Tool))
+        self.guidance.follows_tool()
     }
 
     /// Whether all phases are done.

@@ -48,6 +48,11 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
         self.sequence.number()
     }
 
+    /// Whether the current phase moves the tool along a line, or keeps it in its place.
+    pub fn follows_tool(&self) -> bool {
+        matches!(self.path, Path::Line(..) | Path::Still(Held::Tool))
+    }
+
     /// Whether all phases are done.
     pub fn is_done(&self) -> bool {
         self.sequence.is_done()

@@ -11,7 +11,9 @@ use crate::trajectory::{JointSetPoint, ToolMotion};
 use core::array;
 use wrasse_dynamics::{Frame, State};
 use wrasse_hardware::{JointLimits, SetPoint};
-use wrasse_spatial::{Lanes, Mat3, Pose, Quat, Real, SpatialForce, SpatialVelocity, Vec3, vec3};
+use wrasse_spatial::{
+    Lanes, Mat3, Pose, Quat, Real, SideBySide, SpatialForce, SpatialVelocity, Vec3, vec3,
+};
 
 impl<const J: usize> Setup<f64, J> {
     /// The same setup over another scalar, without estimators, steering and position hold: those decide.
@@ -168,6 +170,12 @@ fn tools<const N: usize, const J: usize>(
 }
 
 impl<const N: usize, const J: usize> PeriodMemory<Lanes<N>, J> {
+    /// Where the tool of one lane should be.
+    pub fn reference_of(&self, i: usize) -> ToolMotion<f64> {
+        let ToolMotion { X_NE, V_NE_N, Vdot_NE_N } = &self.reference;
+        ToolMotion { X_NE: X_NE.lane(i), V_NE_N: V_NE_N.lane(i), Vdot_NE_N: Vdot_NE_N.lane(i) }
+    }
+
     /// What one lane remembers: for what decides, as where a phase begins.
     pub fn lane(&self, i: usize) -> PeriodMemory<f64, J> {
         let one = |x: &Lanes<N>| x.lane(i);

@@ -1,6 +1,6 @@
 //! Set-points of a joint drive, and what the drive does between two of them.
 
-use wrasse_spatial::Real;
+use wrasse_spatial::{Lanes, Real, SideBySide};
 
 /// Where a joint should be at an instant, and how it should move.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -61,6 +61,46 @@ impl<T: Real> SetPointMotion<T> {
             position: position + t * (rate + t * acceleration * c(0.5)) + rise,
             rate: rate + t * acceleration + slope * per,
             acceleration: acceleration + bend * per * per,
+        }
+    }
+}
+
+impl<const N: usize> SideBySide<N> for SetPoint<Lanes<N>> {
+    type Alone = SetPoint<f64>;
+    #[inline(always)]
+    fn side_by_side(of: &impl Fn(usize) -> SetPoint<f64>) -> Self {
+        Self {
+            position: Lanes::from_fn(|i| of(i).position),
+            rate: Lanes::from_fn(|i| of(i).rate),
+            acceleration: Lanes::from_fn(|i| of(i).acceleration),
+        }
+    }
+    #[inline(always)]
+    fn lane(&self, i: usize) -> SetPoint<f64> {
+        SetPoint {
+            position: self.position.lane(i),
+            rate: self.rate.lane(i),
+            acceleration: self.acceleration.lane(i),
+        }
+    }
+}
+
+impl<const N: usize> SideBySide<N> for SetPointMotion<Lanes<N>> {
+    type Alone = SetPointMotion<f64>;
+    #[inline(always)]
+    fn side_by_side(of: &impl Fn(usize) -> SetPointMotion<f64>) -> Self {
+        Self {
+            from: SideBySide::side_by_side(&|i| of(i).from),
+            duration: Lanes::from_fn(|i| of(i).duration),
+            high: SideBySide::side_by_side(&|i| of(i).high),
+        }
+    }
+    #[inline(always)]
+    fn lane(&self, i: usize) -> SetPointMotion<f64> {
+        SetPointMotion {
+            from: self.from.lane(i),
+            duration: self.duration.lane(i),
+            high: self.high.lane(i),
         }
     }
 }

@@ -3,7 +3,7 @@
 
 use crate::flight::Flight;
 use crate::mission::Case;
-use crate::observe::{Needs, Observation, Track, observe};
+use crate::observe::{Needs, Observation, Track, Truth, observe};
 use crate::outcome::{DemandSample, End, Event, Snapshot, Telemetry};
 use crate::picture::snapshot;
 use crate::plan::Plan;
@@ -62,8 +62,9 @@ pub(crate) fn fly(
         track.follow(&command, flight.computer.follows_tool());
         flight.world.update_ledger(&mut ledger);
         let error = flight.estimate_error;
-        let seen =
-            observe(case, &flight.world, &flight.computer, &command, &track, error, Needs::ALL);
+        let truth = Truth::of(&flight.world, Needs::ALL);
+        let jacobian = || flight.computer.task_jacobian();
+        let seen = observe(case, &truth, &command, &track, error, Needs::ALL, &jacobian);
         flight.tell_limits(&seen);
         flight.tell_missing(&command);
         demand.push(DemandSample::of(flight.world.time(), &command, &seen));

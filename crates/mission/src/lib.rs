@@ -36,6 +36,7 @@ mod sampled_case;
 mod sampling;
 mod saturations;
 mod sensing;
+mod side_by_side;
 mod telemetry;
 mod telling;
 
@@ -47,4 +48,4 @@ pub use outcome::{
 };
 pub use read_mission::{mission_schema, read_mission};
 pub use run::{Progress, RunOptions, run, run_case};
-pub use sample::{SampleOutcome, SamplePlan, fly_chunk, fly_sample, plan_samples};
+pub use sample::{SampleOutcome, SamplePlan, fly_chunk, fly_chunk_on, fly_sample, plan_samples};

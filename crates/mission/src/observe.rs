@@ -8,7 +8,7 @@ use wrasse_dynamics::{
     BodyId, Dynamics, Frame, Generalized, JointKind, Kinematics, PerBody, State, inverse_dynamics,
     kinematics, kinetic_energy, mount_reaction,
 };
-use wrasse_flight::{Axes, Command, FlightComputer};
+use wrasse_flight::{Axes, Command};
 use wrasse_hardware::ActuatorReadings;
 use wrasse_spatial::{Pose, Quat, SpatialForce, SpatialVelocity, Vec3};
 use wrasse_vehicle::JOINTS;
@@ -119,20 +119,43 @@ impl Track {
     }
 }
 
-/// See the truth.
+/// The truth, as far as it is looked at.
+#[derive(Debug)]
+pub(crate) struct Truth<'a> {
+    world: &'a World<JOINTS>,
+    state: State<f64, JOINTS>,
+    dynamics: Dynamics<f64, JOINTS>,
+}
+
+impl<'a> Truth<'a> {
+    /// That of a world now.
+    pub(crate) fn of(world: &'a World<JOINTS>, needs: Needs) -> Self {
+        let dynamics = needs.dynamics.then(|| world.dynamics());
+        Self::seen(world, &world.state(), dynamics.as_ref())
+    }
+    /// That of a world whose state is known, and its accelerations and forces if they are asked for.
+    pub(crate) fn seen(
+        world: &'a World<JOINTS>,
+        state: &State<f64, JOINTS>,
+        dynamics: Option<&Dynamics<f64, JOINTS>>,
+    ) -> Self {
+        Self { world, state: *state, dynamics: dynamics.copied().unwrap_or_else(not_looked_at) }
+    }
+}
+
+/// See the truth; `jacobian` gives the law's.
 pub(crate) fn observe(
     case: &Case,
-    world: &World<JOINTS>,
-    computer: &FlightComputer<f64, JOINTS>,
+    truth: &Truth<'_>,
     command: &Command<f64, JOINTS>,
     track: &Track,
     estimate_error: f64,
     needs: Needs,
+    jacobian: &dyn Fn() -> [SpatialVelocity<f64>; JOINTS],
 ) -> Observation {
-    let state = world.state();
-    let dynamics = if needs.dynamics { world.dynamics() } else { not_looked_at() };
+    let Truth { world, state, dynamics } = *truth;
     let k = kinematics(world.robot(), &state);
-    let tool = *computer.tool();
+    let tool = case.setup.assignment.tool;
     let X_NE = k.pose(&tool);
     let seen = match command.axes {
         Axes::Inertial => X_NE,
@@ -171,7 +194,7 @@ pub(crate) fn observe(
         values: [nan; VALUES],
         state,
     };
-    let shape = if needs.shape { shape(case, computer, &k, &tool) } else { (nan, nan) };
+    let shape = if needs.shape { shape(case, jacobian, &k, &tool) } else { (nan, nan) };
     let energy = if needs.energy { kinetic_energy(&k) } else { nan };
     let of_any = values(case, &seen, track, mounts, shape, energy);
     let motors = if needs.motors { motor_torque(case, world) } else { nan };
@@ -192,12 +215,12 @@ pub(crate) fn observe(
 /// How much farther the tool could reach (m), and how far the arm is from a singular posture (–).
 fn shape(
     case: &Case,
-    computer: &FlightComputer<f64, JOINTS>,
+    jacobian: &dyn Fn() -> [SpatialVelocity<f64>; JOINTS],
     k: &Kinematics<'_, f64, JOINTS>,
     tool: &Frame<f64>,
 ) -> (f64, f64) {
     let reach = reach_margin(k, tool).unwrap_or(f64::NAN);
-    (reach, smallest_singular_value(&computer.task_jacobian(), case.setup.assignment.task))
+    (reach, smallest_singular_value(&jacobian(), case.setup.assignment.task))
 }
 
 /// Accelerations and forces that nobody asked for.

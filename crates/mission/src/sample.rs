@@ -7,13 +7,20 @@ use crate::books::ledger;
 use crate::dispersion::draws;
 use crate::flight::Flight;
 use crate::mission::{Case, Mission};
-use crate::observe::{Needs, Track, observe};
+use crate::observe::{Needs, Track, Truth, observe};
 use crate::outcome::{End, Verdict};
 use crate::plan::{Plan, plan};
 use crate::quantity::Watch;
 use crate::requirement::Requirement;
+use crate::side_by_side::{LANES, flies_side_by_side, fly_side_by_side};
+use std::borrow::Cow;
 use std::fmt::Write;
 use std::ops::Range;
+use wrasse_lanes::Level;
+
+/// Fewest samples that are worth a formation: it takes as long as some flights alone, however many
+/// lanes are filled.
+const FEWEST: usize = 3;
 
 /// What came of a sample.
 #[derive(Debug, Clone)]
@@ -36,12 +43,12 @@ pub struct SampleOutcome {
 /// What all samples of a case have in common.
 #[derive(Debug)]
 pub struct SamplePlan<'m> {
-    case: &'m Case,
+    pub(crate) case: &'m Case,
     /// The plan, where nothing that is drawn is known to the laws as they plan.
     plan: Option<Plan>,
-    needs: Needs,
+    pub(crate) needs: Needs,
     /// Numbers of the quantities that are required.
-    watched: Vec<usize>,
+    pub(crate) watched: Vec<usize>,
 }
 
 impl Mission {
@@ -138,37 +145,123 @@ pub fn plan_samples(mission: &Mission, case: usize) -> SamplePlan<'_> {
     SamplePlan { case, plan: (!is_seen).then(|| plan(case)), needs: Needs::of(&names), watched }
 }
 
-/// Fly one sample of a seed.
-pub fn fly_sample(planned: &SamplePlan<'_>, seed: u64, sample: u64) -> SampleOutcome {
-    let case = planned.case.sampled(seed, sample);
-    let (_, deviations) = draws(&planned.case.dispersions, seed, sample);
-    let own;
-    let plan = if let Some(plan) = &planned.plan {
-        plan
-    } else {
-        own = plan(&case);
-        &own
-    };
-    if let Some(end) = &plan.blocked {
-        let verdicts = case.requirements.iter().map(Requirement::unanswered).collect();
-        let end = end.clone();
-        return SampleOutcome { sample, deviations, end, closes: true, passed: false, verdicts };
-    }
-    let (end, watch, closes) = fly_for_verdicts(&case, plan, planned);
-    let verdicts: Vec<_> = case.requirements.iter().map(|r| r.verdict(&watch)).collect();
-    let completed = matches!(end, End::Completed);
-    let passed = completed && closes && verdicts.iter().all(|v| v.pass);
-    SampleOutcome { sample, deviations, end, closes, passed, verdicts }
+/// How a flight ended, what was seen, and whether its books close.
+pub(crate) type Flown = (End, Watch, bool);
+
+/// A sample that was drawn and planned.
+struct Prepared<'p> {
+    sample: u64,
+    deviations: Vec<f64>,
+    case: Case,
+    plan: Cow<'p, Plan>,
 }
 
-/// Fly some samples of a seed, in order.
+impl<'p> Prepared<'p> {
+    fn new(planned: &'p SamplePlan<'_>, seed: u64, sample: u64) -> Self {
+        let case = planned.case.sampled(seed, sample);
+        let (_, deviations) = draws(&planned.case.dispersions, seed, sample);
+        let plan = match &planned.plan {
+            Some(plan) => Cow::Borrowed(plan),
+            None => Cow::Owned(plan(&case)),
+        };
+        Self { sample, deviations, case, plan }
+    }
+    fn fly_alone(self, planned: &SamplePlan<'_>) -> SampleOutcome {
+        if let Some(end) = self.plan.blocked.clone() {
+            let verdicts = self.case.requirements.iter().map(Requirement::unanswered).collect();
+            let Self { sample, deviations, .. } = self;
+            return SampleOutcome {
+                sample,
+                deviations,
+                end,
+                closes: true,
+                passed: false,
+                verdicts,
+            };
+        }
+        let flown = fly_for_verdicts(&self.case, &self.plan, planned);
+        self.judged(flown)
+    }
+    fn judged(self, (end, watch, closes): Flown) -> SampleOutcome {
+        let Self { sample, deviations, case, .. } = self;
+        let verdicts: Vec<_> = case.requirements.iter().map(|r| r.verdict(&watch)).collect();
+        let completed = matches!(end, End::Completed);
+        let passed = completed && closes && verdicts.iter().all(|v| v.pass);
+        SampleOutcome { sample, deviations, end, closes, passed, verdicts }
+    }
+}
+
+impl SamplePlan<'_> {
+    /// Whether its samples fly side by side in the lanes of the processor.
+    pub fn flies_side_by_side(&self) -> bool {
+        flies_side_by_side(self.case)
+    }
+}
+
+/// Fly one sample of a seed.
+pub fn fly_sample(planned: &SamplePlan<'_>, seed: u64, sample: u64) -> SampleOutcome {
+    Prepared::new(planned, seed, sample).fly_alone(planned)
+}
+
+/// Fly some samples of a seed, in order: side by side where they can, each with the bits that it has
+/// alone.
 pub fn fly_chunk(planned: &SamplePlan<'_>, seed: u64, samples: Range<u64>) -> Vec<SampleOutcome> {
-    samples.map(|sample| fly_sample(planned, seed, sample)).collect()
+    fly_chunk_on(Level::best(), planned, seed, samples)
+}
+
+/// The same on one level of the processor.
+pub fn fly_chunk_on(
+    level: Level,
+    planned: &SamplePlan<'_>,
+    seed: u64,
+    samples: Range<u64>,
+) -> Vec<SampleOutcome> {
+    let (mut outcomes, mut waiting) = (vec![], vec![]);
+    for sample in samples {
+        let prepared = Prepared::new(planned, seed, sample);
+        if planned.flies_side_by_side() && prepared.plan.blocked.is_none() {
+            waiting.push(prepared);
+        } else {
+            outcomes.push(prepared.fly_alone(planned));
+        }
+        if waiting.len() == LANES {
+            outcomes.extend(fly_together(level, planned, std::mem::take(&mut waiting)));
+        }
+    }
+    outcomes.extend(fly_together(level, planned, waiting));
+    outcomes.sort_by_key(|outcome| outcome.sample);
+    outcomes
+}
+
+/// Fly a few samples in one formation, those that cannot keep up alone. Lanes that are left over repeat
+/// the last.
+fn fly_together(
+    level: Level,
+    planned: &SamplePlan<'_>,
+    samples: Vec<Prepared<'_>>,
+) -> Vec<SampleOutcome> {
+    if samples.len() < FEWEST {
+        return samples.into_iter().map(|sample| sample.fly_alone(planned)).collect();
+    }
+    let flown = fly_side_by_side(
+        planned,
+        core::array::from_fn(|i| {
+            let prepared = &samples[i.min(samples.len() - 1)];
+            (&prepared.case, &*prepared.plan)
+        }),
+        level,
+    );
+    let each = samples.into_iter().zip(flown);
+    each.map(|(sample, flown)| match flown {
+        Some(flown) => sample.judged(flown),
+        None => sample.fly_alone(planned),
+    })
+    .collect()
 }
 
 /// Fly a case as planned, and look only at what is required: how it ended, what was seen, and whether
 /// the books close.
-fn fly_for_verdicts(case: &Case, plan: &Plan, planned: &SamplePlan<'_>) -> (End, Watch, bool) {
+fn fly_for_verdicts(case: &Case, plan: &Plan, planned: &SamplePlan<'_>) -> Flown {
     let mut flight = Flight::new(case, case.stepper, false);
     let mut watch = Watch::new(case.quantities.clone(), case.phases.len());
     let mut books = flight.world.open_ledger();
@@ -189,8 +282,10 @@ fn fly_for_verdicts(case: &Case, plan: &Plan, planned: &SamplePlan<'_>) -> (End,
         }
         track.follow(&command, flight.computer.follows_tool());
         flight.world.update_ledger(&mut books);
-        let (error, computer) = (flight.estimate_error, &flight.computer);
-        let seen = observe(case, &flight.world, computer, &command, &track, error, planned.needs);
+        let (error, needs) = (flight.estimate_error, planned.needs);
+        let truth = Truth::of(&flight.world, needs);
+        let jacobian = || flight.computer.task_jacobian();
+        let seen = observe(case, &truth, &command, &track, error, needs, &jacobian);
         watch.add_only(&planned.watched, command.phase, &seen.values);
     }
     (end, watch, ledger(&books, case.base).closes)

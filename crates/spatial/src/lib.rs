@@ -18,6 +18,7 @@ mod quaternion;
 mod real;
 pub mod references;
 mod rotation_vector;
+mod side_by_side;
 mod trigonometry;
 mod vector;
 
@@ -32,4 +33,5 @@ pub use pose::Pose;
 pub use quaternion::Quat;
 pub use real::{Real, Scalar};
 pub use rotation_vector::{rotation_vector_rate, turned_by};
+pub use side_by_side::SideBySide;
 pub use vector::{Vec3, vec3};

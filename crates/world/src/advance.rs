@@ -1,11 +1,11 @@
 //! The way through time: steps, sums with care, and what is no longer a number.
 
 use crate::flow::Flow;
-use crate::setup::Drive;
-use crate::stepper::{Displacement, Stepper, dormand_prince, equal_steps, runge_kutta_4};
+use crate::free_flight::{add_vector, add_with_care};
+use crate::stepper::{Judged, Stepper, dormand_prince, equal_steps, runge_kutta_4};
 use crate::world::World;
 use wrasse_hardware::{GYROS, WHEELS};
-use wrasse_spatial::{Vec3, turned_by};
+use wrasse_spatial::Vec3;
 
 /// A number that is no longer finite.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -106,26 +106,9 @@ impl<const J: usize> World<J> {
     /// Add a displacement to the state, giving back what earlier sums lost; `t` (s) is where the
     /// set-points are then.
     fn accept(&mut self, d: &Flow<J>, t: f64) -> Result<(), NonFinite> {
-        let (s, mut carry) = (&mut self.system, self.carry);
-        s.quat_NB = turned_by(s.quat_NB, d.turn);
-        let add = add_with_care;
-        let add3 = |x: &mut Vec3<f64>, dx: Vec3<f64>, carry: &mut Vec3<f64>| {
-            add(&mut x.x, dx.x, &mut carry.x);
-            add(&mut x.y, dx.y, &mut carry.y);
-            add(&mut x.z, dx.z, &mut carry.z);
-        };
-        for j in self.robot.joints() {
-            if let Drive::Follow(motion) = &self.drives[j] {
-                let set_point = motion.at(t);
-                (s.q[j], s.v[j]) = (set_point.position, set_point.rate);
-            } else {
-                add(&mut s.q[j], d.q[j], &mut carry.q[j]);
-                add(&mut s.v[j], d.v[j], &mut carry.v[j]);
-            }
-        }
-        add3(&mut s.p_NScm_N, d.p_NScm_N, &mut carry.p_NScm_N);
-        add3(&mut s.linear, d.linear, &mut carry.linear);
-        add3(&mut s.angular, d.angular, &mut carry.angular);
+        let (mut s, mut carry, mut b) = (self.system, self.carry, self.booked);
+        self.vehicle().move_on((&mut s, &mut carry, &mut b), d, t);
+        let (add, add3) = (add_with_care, add_vector);
         for i in 0..WHEELS {
             add(&mut s.wheel_momentum[i], d.wheel_momentum[i], &mut carry.wheel_momentum[i]);
         }
@@ -133,14 +116,11 @@ impl<const J: usize> World<J> {
             add(&mut s.gimbal_angle[i], d.gimbal_angle[i], &mut carry.gimbal_angle[i]);
             add(&mut s.gimbal_rate[i], d.gimbal_rate[i], &mut carry.gimbal_rate[i]);
         }
-        let b = &mut self.booked;
         add3(&mut b.outside_impulse, d.outside_impulse, &mut carry.outside_impulse);
-        add3(&mut b.from_actuator, d.from_actuator, &mut carry.from_actuator);
         add3(&mut b.from_outside, d.from_outside, &mut carry.from_outside);
         add3(&mut b.from_thrusters, d.from_thrusters, &mut carry.from_thrusters);
         add3(&mut b.thruster_impulse, d.thruster_impulse, &mut carry.thruster_impulse);
-        add3(&mut b.work, d.work, &mut carry.work);
-        self.carry = carry;
+        (self.system, self.carry, self.booked) = (s, carry, b);
         self.check_finite(t)
     }
 
@@ -190,29 +170,6 @@ impl<const J: usize> World<J> {
     }
 }
 
-/// `x += dx`, giving back what the last sum lost (Kahan).
-fn add_with_care(x: &mut f64, dx: f64, carry: &mut f64) {
-    let y = dx - *carry;
-    let sum = *x + y;
-    *carry = (sum - *x) - y;
-    *x = sum;
-}
-
 fn is_finite(v: Vec3<f64>) -> bool {
     v.to_array().iter().all(|x| x.is_finite())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::add_with_care;
-
-    /// A hundredth a million times. A plain sum is off by 1.7e-7.
-    #[test]
-    fn a_sum_with_care_is_right_to_the_last_bit() {
-        let (mut sum, mut carry) = (0.0, 0.0);
-        for _ in 0..1_000_000 {
-            add_with_care(&mut sum, 0.01, &mut carry);
-        }
-        assert_eq!(sum, 1e4);
-    }
 }

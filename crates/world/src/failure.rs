@@ -53,7 +53,7 @@ impl<const J: usize> World<J> {
         let mut impulses = PerBody::filled(SpatialForce::zero());
         impulses.base.torque = impulse_B;
         let k = kinematics(&self.robot, &at_rest);
-        let jump = driven_dynamics(&k, &drives, self.base_mode(), &impulses);
+        let jump = driven_dynamics(&k, &drives, self.base.mode(), &impulses);
         for j in self.robot.joints() {
             self.system.v[j] += jump.nudot.joints[j];
         }

@@ -1,54 +1,53 @@
 //! What moves in one step: the displacement of the whole state.
 
-use crate::stepper::Displacement;
+use crate::stepper::{Displacement, Judged};
 use wrasse_hardware::{GYROS, WHEELS};
-use wrasse_spatial::Vec3;
+use wrasse_spatial::{Real, Vec3};
 
 /// Displacement of the system's state over part of a step, or its rate.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Flow<const J: usize> {
+pub struct Flow<const J: usize, T = f64> {
     /// Rotation vector of the base since the start of the step, body axes (rad).
-    pub turn: Vec3<f64>,
+    pub turn: Vec3<T>,
     /// Joint positions (rad or m).
-    pub q: [f64; J],
+    pub q: [T; J],
     /// Joint rates (rad/s or m/s).
-    pub v: [f64; J],
+    pub v: [T; J],
     /// Centre of mass, inertial axes (m).
-    pub p_NScm_N: Vec3<f64>,
+    pub p_NScm_N: Vec3<T>,
     /// Linear momentum, inertial axes (N·s).
-    pub linear: Vec3<f64>,
+    pub linear: Vec3<T>,
     /// Angular momentum of bodies, wheels and gyros about their centre of mass, inertial axes
     /// (N·m·s).
-    pub angular: Vec3<f64>,
+    pub angular: Vec3<T>,
     /// Momentum of each wheel about its own axis, as seen from inertial space (N·m·s).
-    pub wheel_momentum: [f64; WHEELS],
+    pub wheel_momentum: [T; WHEELS],
     /// Angle of each gimbal (rad).
-    pub gimbal_angle: [f64; GYROS],
+    pub gimbal_angle: [T; GYROS],
     /// Rate of each gimbal (rad/s).
-    pub gimbal_rate: [f64; GYROS],
+    pub gimbal_rate: [T; GYROS],
     /// Angular impulse of the attitude actuator on the bodies, inertial axes (N·m·s).
-    pub from_actuator: Vec3<f64>,
+    pub from_actuator: Vec3<T>,
     /// Angular impulse from outside about the common centre of mass of the vehicle and the free
     /// bodies, inertial axes (N·m·s).
-    pub from_outside: Vec3<f64>,
+    pub from_outside: Vec3<T>,
     /// Impulse from outside, inertial axes (N·s).
-    pub outside_impulse: Vec3<f64>,
+    pub outside_impulse: Vec3<T>,
     /// Angular impulse of the thrusters, about the same point as that from outside (N·m·s).
-    pub from_thrusters: Vec3<f64>,
+    pub from_thrusters: Vec3<T>,
     /// Impulse of the thrusters, inertial axes (N·s).
-    pub thruster_impulse: Vec3<f64>,
+    pub thruster_impulse: Vec3<T>,
     /// Work on the bodies: of the joint drives, of whatever turns and pushes the base, and from
     /// outside (J).
-    pub work: Vec3<f64>,
+    pub work: Vec3<T>,
 }
 
-impl<const J: usize> Flow<J> {
+impl<const J: usize, T: Real> Flow<J, T> {
     /// Each component of two flows by a function.
     #[inline(always)]
     #[must_use]
-    pub fn zip(&self, other: &Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        let v =
-            |a: Vec3<f64>, b: Vec3<f64>| Vec3 { x: f(a.x, b.x), y: f(a.y, b.y), z: f(a.z, b.z) };
+    pub fn zip(&self, other: &Self, f: impl Fn(T, T) -> T) -> Self {
+        let v = |a: Vec3<T>, b: Vec3<T>| Vec3 { x: f(a.x, b.x), y: f(a.y, b.y), z: f(a.z, b.z) };
         Self {
             turn: v(self.turn, other.turn),
             q: core::array::from_fn(|j| f(self.q[j], other.q[j])),
@@ -71,20 +70,20 @@ impl<const J: usize> Flow<J> {
     }
 }
 
-impl<const J: usize> Displacement for Flow<J> {
+impl<const J: usize, T: Real> Displacement for Flow<J, T> {
     #[inline(always)]
     fn zero() -> Self {
         let o = Vec3::zero();
         Self {
             turn: o,
-            q: [0.0; J],
-            v: [0.0; J],
+            q: [T::zero(); J],
+            v: [T::zero(); J],
             p_NScm_N: o,
             linear: o,
             angular: o,
-            wheel_momentum: [0.0; WHEELS],
-            gimbal_angle: [0.0; GYROS],
-            gimbal_rate: [0.0; GYROS],
+            wheel_momentum: [T::zero(); WHEELS],
+            gimbal_angle: [T::zero(); GYROS],
+            gimbal_rate: [T::zero(); GYROS],
             from_actuator: o,
             from_outside: o,
             outside_impulse: o,
@@ -95,8 +94,12 @@ impl<const J: usize> Displacement for Flow<J> {
     }
     #[inline(always)]
     fn plus(&self, h: f64, rate: &Self) -> Self {
+        let h = T::from_f64(h);
         self.zip(rate, |a, b| a + h * b)
     }
+}
+
+impl<const J: usize> Judged for Flow<J> {
     fn error_norm(&self, tolerance: f64) -> f64 {
         // The state, and what is booked: where joints are prescribed only the books see a step that
         // is too long.

@@ -26,9 +26,6 @@ impl Displacement for Vec3<f64> {
     fn plus(&self, h: f64, rate: &Self) -> Self {
         *self + *rate * h
     }
-    fn error_norm(&self, tolerance: f64) -> f64 {
-        self.norm() / tolerance
-    }
 }
 
 impl FreeBody {

@@ -100,7 +100,7 @@ impl<const J: usize> World<J> {
             Drive::Follow(_) => JointDrive::Acceleration(before.v[j]),
             Drive::Effort(_) => JointDrive::Effort(own.joints[j]),
         });
-        let found = driven_dynamics(&k, &drives, self.base_mode(), &momenta);
+        let found = driven_dynamics(&k, &drives, self.base.mode(), &momenta);
         for j in self.robot.joints() {
             self.system.v[j] = found.nudot.joints[j];
         }

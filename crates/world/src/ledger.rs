@@ -5,29 +5,29 @@
 use crate::free_body::FreeBody;
 use crate::propellant::Carried;
 use crate::world::World;
-use wrasse_dynamics::{PerBody, State, kinematics, kinetic_energy};
-use wrasse_spatial::Vec3;
+use wrasse_dynamics::{Kinematics, PerBody, Robot, State, kinematics, kinetic_energy};
+use wrasse_spatial::{Pose, Real, SpatialInertia, SpatialVelocity, Vec3};
 
 /// Momentum and energy at one instant, from poses and twists alone.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Account {
+pub struct Account<T = f64> {
     /// Linear momentum of everything (N·s).
-    pub linear: Vec3<f64>,
+    pub linear: Vec3<T>,
     /// Angular momentum of everything about the common centre of mass (N·m·s).
-    pub angular: Vec3<f64>,
+    pub angular: Vec3<T>,
     /// Kinetic energy of everything (J), but for the spin of wheels and rotors: what their motors
     /// spend on that is not on the bodies.
-    pub energy: f64,
+    pub energy: T,
     /// Sum of the bodies' absolute linear momenta (N·s): the scale of the linear rest.
-    pub linear_scale: f64,
+    pub linear_scale: T,
     /// Sum of the bodies' absolute angular momenta about the centre of mass (N·m·s).
-    pub angular_scale: f64,
+    pub angular_scale: T,
     /// Of the angular momentum: what the wheels have beside the base, inertial axes (N·m·s).
-    pub in_wheels: Vec3<f64>,
+    pub in_wheels: Vec3<T>,
     /// Of the angular momentum: what the gyros have beside the base, inertial axes (N·m·s).
-    pub in_gyros: Vec3<f64>,
+    pub in_gyros: Vec3<T>,
     /// Common centre of mass (m).
-    pub centre_of_mass: Vec3<f64>,
+    pub centre_of_mass: Vec3<T>,
 }
 
 /// The books of a run.
@@ -63,19 +63,82 @@ pub struct Ledger {
 /// One body in the books: mass (kg), centre of mass (m), linear momentum (N·s), angular momentum about
 /// its centre of mass (N·m·s), inertial axes.
 #[derive(Debug, Clone, Copy, Default)]
-struct Part {
-    mass: f64,
-    p_cm: Vec3<f64>,
-    linear: Vec3<f64>,
-    angular: Vec3<f64>,
+struct Part<T> {
+    mass: T,
+    p_cm: Vec3<T>,
+    linear: Vec3<T>,
+    angular: Vec3<T>,
+}
+
+impl<T: Real> Part<T> {
+    /// A body of the vehicle; nothing where it weighs nothing.
+    #[inline(always)]
+    fn of(M: &SpatialInertia<T>, X_NB: &Pose<T>, V_NB_B: &SpatialVelocity<T>) -> Self {
+        let h_B = *M * *V_NB_B;
+        let p_BBcm_B = M.centre_of_mass();
+        let weighs = T::zero().lt(M.mass);
+        let if_it_weighs =
+            |v: Vec3<T>| Vec3::from_array(v.to_array().map(|x| T::select(weighs, x, T::zero())));
+        Self {
+            mass: M.mass,
+            p_cm: if_it_weighs(X_NB.point(p_BBcm_B)),
+            linear: if_it_weighs(X_NB.rotation * h_B.force),
+            angular: if_it_weighs(X_NB.rotation * h_B.about(p_BBcm_B).torque),
+        }
+    }
 }
 
 /// A free body in the books: from its twist, like every other body.
-fn part(body: &FreeBody) -> Part {
+fn part(body: &FreeBody) -> Part<f64> {
     let (M, R_NT) = (body.matter.M_F_F, body.pose().rotation);
     let h_T = M * body.twist();
     let about_cm = h_T.about(M.centre_of_mass()).torque;
     Part { mass: M.mass, p_cm: body.p_NTcm_N, linear: R_NT * h_T.force, angular: R_NT * about_cm }
+}
+
+/// Momentum and energy of a vehicle in a state and of what is beside it.
+#[inline(always)]
+pub(crate) fn account<T: Real, const J: usize>(
+    robot: &Robot<T, J>,
+    state: &State<T, J>,
+) -> Account<T> {
+    let k = kinematics(robot, state);
+    together(robot, &own(&k), core::iter::empty, kinetic_energy(&k))
+}
+
+/// The bodies of a vehicle, one by one.
+#[inline(always)]
+fn own<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> PerBody<Part<T>, J> {
+    let (X_NB, V_NB_B) = (k.poses(), k.twists());
+    let mut own = PerBody::filled(Part::default());
+    for body in k.robot.bodies() {
+        own[body] = Part::of(k.robot.inertia(body), &X_NB[body], &V_NB_B[body]);
+    }
+    own
+}
+
+/// Bodies of a vehicle and those beside it, added up.
+#[inline(always)]
+fn together<T: Real, const J: usize, I: Iterator<Item = Part<T>>>(
+    robot: &Robot<T, J>,
+    own: &PerBody<Part<T>, J>,
+    beside: impl Fn() -> I,
+    energy: T,
+) -> Account<T> {
+    // Once for the common centre of mass, once about it: nothing needs to be kept.
+    let parts = || robot.bodies().map(|body| own[body]).chain(beside());
+    let mass = parts().fold(T::zero(), |sum, p| sum + p.mass);
+    let moment = parts().fold(Vec3::zero(), |s, p| s + p.p_cm * p.mass);
+    let centre_of_mass = moment * (T::one() / mass);
+    let mut account = Account { energy, centre_of_mass, ..Account::default() };
+    for Part { p_cm, linear, angular, .. } in parts() {
+        let angular = angular + (p_cm - centre_of_mass).cross(linear);
+        account.linear += linear;
+        account.angular += angular;
+        account.linear_scale += linear.norm();
+        account.angular_scale += angular.norm();
+    }
+    account
 }
 
 impl<const J: usize> World<J> {
@@ -83,36 +146,9 @@ impl<const J: usize> World<J> {
     pub fn account(&self) -> Account {
         let state = self.state();
         let k = kinematics(&self.robot, &state);
-        let mut own: PerBody<Part, J> = PerBody::filled(Part::default());
-        for body in self.robot.bodies() {
-            let (X_NB, M) = (&k.X_NB(body), self.robot.inertia(body));
-            if M.mass == 0.0 {
-                continue;
-            }
-            let h_B = *M * k.V_NB_B(body);
-            let p_BBcm_B = M.centre_of_mass();
-            own[body] = Part {
-                mass: M.mass,
-                p_cm: X_NB.point(p_BBcm_B),
-                linear: X_NB.rotation * h_B.force,
-                angular: X_NB.rotation * h_B.about(p_BBcm_B).torque,
-            };
-        }
-        // Once for the common centre of mass, once about it: nothing needs to be kept.
-        let parts = || self.robot.bodies().map(|body| own[body]).chain(self.free.iter().map(part));
         let energies = self.free.iter().map(FreeBody::kinetic_energy);
         let energy = energies.fold(kinetic_energy(&k), |sum, energy| sum + energy);
-        let mass: f64 = parts().map(|p| p.mass).sum();
-        let moment = parts().fold(Vec3::zero(), |s, p| s + p.p_cm * p.mass);
-        let mut account =
-            Account { centre_of_mass: moment * (1.0 / mass), energy, ..Account::default() };
-        for Part { p_cm, linear, angular, .. } in parts() {
-            let angular = angular + (p_cm - account.centre_of_mass).cross(linear);
-            account.linear += linear;
-            account.angular += angular;
-            account.linear_scale += linear.norm();
-            account.angular_scale += angular.norm();
-        }
+        let mut account = together(&self.robot, &own(&k), || self.free.iter().map(part), energy);
         self.add_wheels_and_gyros(&state, &mut account);
         account
     }
@@ -132,39 +168,44 @@ impl<const J: usize> World<J> {
     }
     /// Open the books.
     pub fn open_ledger(&self) -> Ledger {
-        let start = self.account();
-        Ledger {
-            start,
-            now: start,
-            scale: [start.angular_scale, start.linear_scale, start.energy],
-            ..Ledger::default()
-        }
+        Ledger::opened(self.account())
     }
     /// Bring the books up to now.
     pub fn update_ledger(&self, ledger: &mut Ledger) {
-        ledger.now = self.account();
-        ledger.angular_from_actuator = self.booked.from_actuator;
+        ledger.propellant = self.carried;
+        ledger.energy_at_grasps = self.energy_at_grasps;
         ledger.angular_from_outside = self.booked.from_outside;
         ledger.linear_from_outside = self.booked.outside_impulse;
         ledger.angular_from_thrusters = self.booked.from_thrusters;
         ledger.linear_from_thrusters = self.booked.thruster_impulse;
-        ledger.propellant = self.carried;
-        ledger.work = self.booked.work;
-        ledger.energy_at_grasps = self.energy_at_grasps;
-        let rests = ledger.rests();
-        let scales = [
-            ledger.now.angular_scale.max(ledger.angular_from_actuator.norm()),
-            ledger.now.linear_scale,
-            ledger.now.energy.max(ledger.work.norm()),
-        ];
-        for i in 0..3 {
-            ledger.worst[i] = ledger.worst[i].max(rests[i]);
-            ledger.scale[i] = ledger.scale[i].max(scales[i]);
-        }
+        ledger.book(self.account(), self.booked.from_actuator, self.booked.work);
     }
 }
 
 impl Ledger {
+    /// Books that begin with this.
+    pub(crate) fn opened(start: Account) -> Self {
+        Self {
+            start,
+            now: start,
+            scale: [start.angular_scale, start.linear_scale, start.energy],
+            ..Self::default()
+        }
+    }
+    /// Bring the books up to now: with the actuator's angular impulse (N·m·s) and the work (J).
+    pub(crate) fn book(&mut self, now: Account, from_actuator: Vec3<f64>, work: Vec3<f64>) {
+        (self.now, self.angular_from_actuator, self.work) = (now, from_actuator, work);
+        let rests = self.rests();
+        let scales = [
+            self.now.angular_scale.max(self.angular_from_actuator.norm()),
+            self.now.linear_scale,
+            self.now.energy.max(self.work.norm()),
+        ];
+        for i in 0..3 {
+            self.worst[i] = self.worst[i].max(rests[i]);
+            self.scale[i] = self.scale[i].max(scales[i]);
+        }
+    }
     /// What nobody booked: angular (N·m·s), linear (N·s), energy (J).
     pub fn rests(&self) -> [f64; 3] {
         let angular = self.now.angular

@@ -1,58 +1,29 @@
 //! The right-hand side: how fast everything changes, given what drives it.
 
 use crate::flow::Flow;
-use crate::setup::{BaseAttitude, Drive};
+use crate::free_flight::FreeFlight;
 use crate::world::{SystemState, World};
-use wrasse_dynamics::{
-    BaseMode, BodyId, Dynamics, JointDrive, Kinematics, PerBody, State, driven_dynamics, kinematics,
-};
+use wrasse_dynamics::{BodyId, Dynamics, Kinematics, PerBody, State, kinematics};
 use wrasse_hardware::{GYROS, WHEELS};
-use wrasse_spatial::{
-    Pose, SpatialForce, SpatialInertia, SpatialMomentum, SpatialVelocity, Vec3,
-    rotation_vector_rate,
-};
-
-/// Inertia of the whole system with joints locked, about Bo in base axes, and the momentum of the
-/// joint rates alone: from kinematics with the base at rest in the origin.
-fn locked<const J: usize>(
-    k: &Kinematics<'_, f64, J>,
-) -> (SpatialInertia<f64>, SpatialMomentum<f64>) {
-    let (mut M, mut h) = (SpatialInertia::zero(), SpatialForce::zero());
-    for body in k.robot.bodies() {
-        let (X_NB, M_B) = (&k.X_NB(body), k.robot.inertia(body));
-        M += X_NB.inertia_to_parent(M_B);
-        h += X_NB.force_to_parent(&(*M_B * k.V_NB_B(body)));
-    }
-    (M, h)
-}
+use wrasse_spatial::{SpatialForce, Vec3};
 
 impl<const J: usize> World<J> {
+    /// The vehicle without what is bolted to it.
+    #[inline(always)]
+    pub(crate) fn vehicle(&self) -> FreeFlight<'_, f64, J> {
+        FreeFlight {
+            robot: &self.robot,
+            drives: &self.drives,
+            base: self.base,
+            mass: self.mass,
+            actuator_torque_B: self.actuator_torque_B,
+        }
+    }
+
     /// Pose and twist of the base and the joints' state that a system state means, at `t` (s) into
     /// the current set-points.
     pub(crate) fn expand(&self, system: &SystemState<J>, t: f64) -> State<f64, J> {
-        let mut state = State { q: system.q, v: system.v, ..State::default() };
-        for j in self.robot.joints() {
-            if let Drive::Follow(motion) = &self.drives[j] {
-                let set_point = motion.at(t);
-                (state.q[j], state.v[j]) = (set_point.position, set_point.rate);
-            }
-        }
-        let (M, h_of_rates) = locked(&kinematics(&self.robot, &state));
-        let R_NB = system.quat_NB.to_matrix();
-        let p_BScm_B = M.centre_of_mass();
-        let linear_B = R_NB.transpose_mul(system.linear);
-        state.V_NB_B = match self.base {
-            BaseAttitude::Held => {
-                SpatialVelocity::new(Vec3::zero(), (linear_B - h_of_rates.force) * (1.0 / M.mass))
-            }
-            BaseAttitude::Free | BaseAttitude::Controlled => {
-                let about_cm = SpatialForce::new(R_NB.transpose_mul(system.angular), linear_B);
-                let inside = SpatialForce::new(self.inside_B(system), Vec3::zero());
-                M.velocity_of(&(about_cm.about(-p_BScm_B) - h_of_rates - inside))
-            }
-        };
-        state.X_NB = Pose::new(R_NB, system.p_NScm_N - R_NB * p_BScm_B);
-        state
+        self.vehicle().expand(system, self.inside_B(system), t)
     }
 
     /// Accelerations and forces at a state, with the drives as they are at `t` (s).
@@ -62,22 +33,7 @@ impl<const J: usize> World<J> {
         t: f64,
         acting: &Acting<J>,
     ) -> Dynamics<f64, J> {
-        let drives = core::array::from_fn(|j| match &self.drives[j] {
-            Drive::Follow(motion) => JointDrive::Acceleration(motion.at(t).acceleration),
-            Drive::Effort(tau) => JointDrive::Effort(*tau),
-        });
-        let mut on_bodies = acting.outside;
-        on_bodies.base.torque += self.actuator_torque_B + acting.turning_B;
-        on_bodies.base += acting.thrust_B;
-        driven_dynamics(k, &drives, self.base_mode(), &on_bodies)
-    }
-
-    /// What holds the base.
-    pub(crate) fn base_mode(&self) -> BaseMode {
-        match self.base {
-            BaseAttitude::Held => BaseMode::AttitudeHeld,
-            BaseAttitude::Free | BaseAttitude::Controlled => BaseMode::Free,
-        }
+        self.vehicle().dynamics(k, t, (acting.turning_B, acting.thrust_B), &acting.outside)
     }
 
     /// What wheels and gyros hold beside the bodies, base axes (N·m·s).
@@ -119,38 +75,26 @@ impl<const J: usize> World<J> {
         let k = kinematics(&self.robot, &state);
         let acting = self.acting(&system, &k, t0 + t, self.stretch_middle);
         let found = self.dynamics_at(&k, t0 + t, &acting);
-        let (R_NB, w) = (state.X_NB.rotation, state.V_NB_B.angular);
-        let torque_B = found.force.base.torque + self.actuator_torque_B;
+        let mut flow = self.vehicle().flow(&system, d, &state, &found, acting.turning_B);
         let p_NScm_N = system.p_NScm_N;
         let (force, torque) = about_centre_of_mass(&k, &acting.outside, p_NScm_N);
         let (push, turn) = of_thrusters(&k, &acting.thrust_B, p_NScm_N);
         let beside = self.beside_the_centre_of_all(p_NScm_N, t0 + t);
-        let torque_N = R_NB * torque_B;
-        let on_base = (torque_B + acting.turning_B).dot(w);
-        let mut work = Vec3 { x: 0.0, y: on_base + state.V_NB_B.power(&acting.thrust_B), z: 0.0 };
-        for j in self.robot.joints() {
-            work.x += found.force.joints[j] * state.v[j];
-        }
+        flow.linear = force + push;
+        flow.angular = flow.angular + torque + turn;
+        flow.wheel_momentum = acting.wheel_torque;
+        flow.gimbal_angle = system.gimbal_rate;
+        flow.gimbal_rate = acting.gimbal_acceleration;
+        flow.from_outside = torque + beside.cross(force);
+        flow.outside_impulse = force;
+        flow.from_thrusters = turn + beside.cross(push);
+        flow.thruster_impulse = push;
+        flow.work.y += state.V_NB_B.power(&acting.thrust_B);
+        let V_NB_B = k.twists();
         for body in self.robot.bodies() {
-            work.z += k.V_NB_B(body).power(&acting.outside[body]);
+            flow.work.z += V_NB_B[body].power(&acting.outside[body]);
         }
-        Flow {
-            turn: rotation_vector_rate(d.turn, w),
-            q: state.v,
-            v: found.nudot.joints,
-            p_NScm_N: system.linear * (1.0 / self.mass),
-            linear: force + push,
-            angular: torque_N + torque + turn,
-            wheel_momentum: acting.wheel_torque,
-            gimbal_angle: system.gimbal_rate,
-            gimbal_rate: acting.gimbal_acceleration,
-            from_actuator: torque_N,
-            from_outside: torque + beside.cross(force),
-            outside_impulse: force,
-            from_thrusters: turn + beside.cross(push),
-            thruster_impulse: push,
-            work,
-        }
+        flow
     }
 }
 
@@ -192,8 +136,9 @@ fn about_centre_of_mass<const J: usize>(
     p_NScm_N: Vec3<f64>,
 ) -> (Vec3<f64>, Vec3<f64>) {
     let (mut force, mut torque) = (Vec3::zero(), Vec3::zero());
+    let poses = k.poses();
     let mut add = |body: BodyId| {
-        let X_NB = &k.X_NB(body);
+        let X_NB = &poses[body];
         let f = X_NB.rotation * outside[body].force;
         force += f;
         torque += X_NB.rotation * outside[body].torque + (X_NB.translation - p_NScm_N).cross(f);

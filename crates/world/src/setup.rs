@@ -18,11 +18,11 @@ pub enum BaseAttitude {
 
 /// What drives a joint for the current control period.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Drive {
+pub enum Drive<T = f64> {
     /// Follows the set-points exactly, whatever it takes.
-    Follow(SetPointMotion<f64>),
+    Follow(SetPointMotion<T>),
     /// A torque (N·m) or force (N), constant over the period.
-    Effort(f64),
+    Effort(T),
 }
 
 /// An instant that a wrench from outside is asked for.

@@ -13,30 +13,30 @@ use wrasse_dynamics::{
     BodyId, Dynamics, Frame, Kinematics, Payload, PerBody, Robot, State, kinematics, momentum,
 };
 use wrasse_hardware::{ActuatorReadings, AttitudeActuator, GYROS, JointLimits, WHEELS};
-use wrasse_spatial::{Pose, Quat, SpatialForce, Vec3};
+use wrasse_spatial::{Pose, Quat, Real, SpatialForce, Vec3};
 
 /// The integrated state: all of it in inertial axes but the joints.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SystemState<const J: usize> {
+pub struct SystemState<const J: usize, T = f64> {
     /// Attitude of the base, `quat_NB`.
-    pub quat_NB: Quat<f64>,
+    pub quat_NB: Quat<T>,
     /// Joint positions (rad or m).
-    pub q: [f64; J],
+    pub q: [T; J],
     /// Joint rates (rad/s or m/s).
-    pub v: [f64; J],
+    pub v: [T; J],
     /// Centre of mass (m).
-    pub p_NScm_N: Vec3<f64>,
+    pub p_NScm_N: Vec3<T>,
     /// Linear momentum (N·s).
-    pub linear: Vec3<f64>,
+    pub linear: Vec3<T>,
     /// Angular momentum of bodies, wheels and gyros about the centre of mass (N·m·s); follows from
     /// the rest where the attitude is held.
-    pub angular: Vec3<f64>,
+    pub angular: Vec3<T>,
     /// Momentum of each wheel about its own axis, as seen from inertial space (N·m·s).
-    pub wheel_momentum: [f64; WHEELS],
+    pub wheel_momentum: [T; WHEELS],
     /// Angle of each gimbal (rad).
-    pub gimbal_angle: [f64; GYROS],
+    pub gimbal_angle: [T; GYROS],
     /// Rate of each gimbal (rad/s).
-    pub gimbal_rate: [f64; GYROS],
+    pub gimbal_rate: [T; GYROS],
 }
 
 impl<const J: usize> SystemState<J> {
@@ -55,9 +55,12 @@ impl<const J: usize> SystemState<J> {
             gimbal_rate: [0.0; GYROS],
         }
     }
+}
+
+impl<const J: usize, T: Real> SystemState<J, T> {
     /// The state after a displacement.
     #[inline(always)]
-    pub(crate) fn displaced(&self, d: &Flow<J>) -> Self {
+    pub(crate) fn displaced(&self, d: &Flow<J, T>) -> Self {
         Self {
             quat_NB: self.quat_NB * Quat::exp(d.turn),
             q: core::array::from_fn(|j| self.q[j] + d.q[j]),
@@ -280,6 +283,10 @@ impl<const J: usize> World<J> {
         }
     }
 
+    /// Whether anything pushes from outside.
+    pub(crate) fn is_pushed(&self) -> bool {
+        self.outside.is_some()
+    }
     /// Pose `X_NF` of a frame now.
     pub fn pose(&self, frame: &Frame<f64>) -> Pose<f64> {
         kinematics(&self.robot, &self.state()).pose(frame)
