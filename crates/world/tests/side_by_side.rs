@@ -22,7 +22,7 @@ fn world(base: BaseAttitude, i: usize) -> World<2> {
     let mount = Pose { translation: vec3(0.5, 0.2, 0.0), ..Pose::identity() };
     let joint = |on, axis| (Joint::new(on, JointKind::Revolute, mount, axis), link);
     let links =
-        [joint(BodyId::Base, vec3(0.1, 0.3, 1.0)), joint(BodyId::Link(0), vec3(1.0, 0.0, x))];
+        [joint(BodyId::Base, vec3(0.1, 0.3, 1.0)), joint(BodyId::Link(0), vec3(1.0, 0.0, 0.3))];
     let limited = JointLimits { effort: Some(0.35), ..JointLimits::default() };
     World::new(&WorldSetup {
         robot: &Robot::new(bus, &links).unwrap(),
