@@ -14,7 +14,7 @@ use wrasse_sweep::{SweepOutcome, sweep};
 
 /// Fly many samples of a mission: how often it succeeds, how its values spread, which samples are worst.
 ///
-/// What each sample draws stands in the mission file, in tables [[disperse]]; see missions/sweeps. Writes
+/// What each sample draws stands in the mission file, in tables named disperse; see missions/sweeps. Writes
 /// report.html, samples.parquet and summary.json to out/NAME-sweep, and keeps what is flown in its folder
 /// `parts` on the way: interrupted, the same command goes on from there; with more samples it begins with
 /// those. `wrasse run MISSION --sample K` flies one of them again, to the same bits, with a full report.
