@@ -27,9 +27,13 @@ pub(crate) struct Measured {
     pub(super) without_peers: Option<String>,
 }
 
-/// Measure and write the page.
-pub(crate) fn bench() -> Result<(), String> {
-    cargo(&["bench", "-p", "wrasse-bench", "--bench", "kernels"], None)?;
+/// Measure and write the page; with `--page`, write it from what was measured last.
+pub(crate) fn bench(arguments: &[String]) -> Result<(), String> {
+    match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        [] => cargo(&["bench", "-p", "wrasse-bench", "--bench", "kernels"], None)?,
+        ["--page"] => {}
+        _ => return Err("usage: cargo xtask bench [--page]".to_owned()),
+    }
     let target = target();
     let mut timings = timings::of_criterion(&target.join("criterion"))?;
     let peak = timings

@@ -15,7 +15,8 @@ usage: cargo xtask CHORE
 
   test [ARGS]   all tests: unit, integration and documentation tests of the whole workspace;
                 ARGS go to `cargo test`
-  bench         times of the kernels beside Pinocchio and MuJoCo, as a page of the book
+  bench         times of the kernels beside Pinocchio and MuJoCo, as a page of the book;
+                with --page only the page, from what was measured last
   tidy          rules of the repository that no compiler knows
   counts [--require | --accept | --release]
                 instructions of the main kernels, counted by callgrind and held against
@@ -35,7 +36,7 @@ fn main() -> ExitCode {
     };
     let outcome = match chore {
         "test" => chores::test(rest),
-        "bench" => bench::bench(),
+        "bench" => bench::bench(rest),
         "tidy" => tidy::report(),
         "counts" => counts::counts(rest),
         "embedded" => embedded::embedded(rest),

@@ -58,7 +58,10 @@ fn fly<const J: usize>(law: ArmLaw, all: bool) {
 
 fn main() -> ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
-    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    let mut words: Vec<&str> = words.iter().map(String::as_str).collect();
+    if words.is_empty() {
+        words = vec!["one", "held", "median"];
+    }
     let [arms @ ("one" | "two"), law @ ("held" | "floating"), which @ ("median" | "all")] =
         words[..]
     else {
