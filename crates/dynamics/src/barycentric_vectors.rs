@@ -33,13 +33,13 @@ pub fn barycentric_vectors<T: Real, const J: usize>(
         lambda[body] -= k.robot.inertia(body).first_moment * per_mass;
     }
     for j in k.robot.joints() {
-        let l = k.links[j].X_PB.translation;
+        let l = k.X_PB(j).translation;
         lambda[k.robot.joint(j).parent] -= l * (subtree.links[j] * per_mass);
     }
     // The way from the base to the frame.
     lambda[frame.body] += frame.X_BF.translation;
     for j in k.robot.path_to_base(frame.body) {
-        lambda[k.robot.joint(j).parent] += k.links[j].X_PB.translation;
+        lambda[k.robot.joint(j).parent] += k.X_PB(j).translation;
     }
     lambda
 }

@@ -1,7 +1,8 @@
 //! Forward dynamics, with joints driven by force or made to follow, and the base free or held.
 
 use crate::{
-    BodyId, Generalized, GeneralizedForce, GeneralizedVelocity, Joint, Kinematics, PerBody,
+    BodyId, Generalized, GeneralizedForce, GeneralizedVelocity, JointKind, Kinematics, Outside,
+    PerBody,
 };
 use wrasse_spatial::{
     ArticulatedInertia, Mat3, Real, SpatialAcceleration, SpatialForce, SpatialInertia, Vec3,
@@ -39,9 +40,9 @@ pub struct Dynamics<T, const J: usize> {
 #[derive(Clone, Copy)]
 struct Articulated<T> {
     R_BL: Mat3<T>,
-    /// From the parent's origin (m), and the joint's axis (–).
+    /// From the parent's origin (m).
     p_PL_B: Vec3<T>,
-    axis_B: Vec3<T>,
+    axis: Axis<T>,
     /// Turning rate (rad/s).
     w_NL_B: Vec3<T>,
     M: ArticulatedInertia<T>,
@@ -55,6 +56,50 @@ struct Articulated<T> {
     u: T,
 }
 
+/// A joint's axis (–) and how it moves.
+#[derive(Clone, Copy)]
+struct Axis<T> {
+    along_B: Vec3<T>,
+    kind: JointKind,
+}
+
+impl<T: Real> Axis<T> {
+    /// `S q̈`.
+    #[inline(always)]
+    fn motion(&self, rate: T) -> SpatialAcceleration<T> {
+        match self.kind {
+            JointKind::Revolute => SpatialAcceleration::new(self.along_B * rate, Vec3::zero()),
+            JointKind::Prismatic => SpatialAcceleration::new(Vec3::zero(), self.along_B * rate),
+        }
+    }
+    /// `M S`.
+    #[inline(always)]
+    fn force(&self, M: &ArticulatedInertia<T>) -> SpatialForce<T> {
+        let s = self.along_B;
+        match self.kind {
+            JointKind::Revolute => SpatialForce::new(M.angular * s, M.coupling.transpose_mul(s)),
+            JointKind::Prismatic => SpatialForce::new(M.coupling * s, M.linear * s),
+        }
+    }
+    /// `Sᵀ F`.
+    #[inline(always)]
+    fn project(&self, F: &SpatialForce<T>) -> T {
+        match self.kind {
+            JointKind::Revolute => self.along_B.dot(F.torque),
+            JointKind::Prismatic => self.along_B.dot(F.force),
+        }
+    }
+    /// What the joint rate adds to the classical acceleration, when its body turns with `w`.
+    #[inline(always)]
+    fn bias(&self, w: Vec3<T>, qdot: T) -> SpatialAcceleration<T> {
+        let across = w.cross(self.along_B * qdot);
+        match self.kind {
+            JointKind::Revolute => SpatialAcceleration::new(across, Vec3::zero()),
+            JointKind::Prismatic => SpatialAcceleration::new(Vec3::zero(), across + across),
+        }
+    }
+}
+
 /// Accelerations from forces, or forces from accelerations, joint by joint (articulated bodies).
 ///
 /// # Arguments
@@ -62,7 +107,7 @@ struct Articulated<T> {
 /// |---|---|---|
 /// | `drives` | what is given of each joint | N·m, N or rad/s², m/s² |
 /// | `base` | what holds the base | – |
-/// | `external` | wrench on each body at its origin, in its axes; the base's included | N·m, N |
+/// | `outside` | wrench on each body at its origin, in its axes; the base's included | N·m, N |
 ///
 /// # Source
 /// [`Featherstone2008`](wrasse_spatial::references::Featherstone2008) ch. 7, table 7.1; ch. 9.2 for
@@ -70,21 +115,23 @@ struct Articulated<T> {
 /// with the base's angular acceleration given.
 #[doc(alias = "aba")]
 #[inline(always)]
-pub fn driven_dynamics<T: Real, const J: usize>(
+pub fn driven_dynamics<'a, T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     drives: &[JointDrive<T>; J],
     base: BaseMode,
-    external: &PerBody<SpatialForce<T>, J>,
+    outside: impl Into<Outside<'a, T, J>>,
 ) -> Dynamics<T, J> {
-    let nothing = rigid(&SpatialInertia::zero(), Vec3::zero(), &SpatialForce::zero());
-    let mut bodies = PerBody::filled(nothing);
-    alone(k, external, &mut bodies);
+    let outside = outside.into();
+    let mut on_base = rigid(k.robot.inertia(BodyId::Base), k.state.V_NB_B.angular);
+    on_base.p = on_base.p - outside.base;
+    let mut bodies = PerBody::filled(on_base);
+    alone(k, &outside, &mut bodies);
     for j in k.robot.joints().rev() {
         // Tip to base: what the parent feels of the tree behind the joint.
-        let (joint, link) = (k.robot.joint(j), &mut bodies.links[j]);
-        let (M, p) = link.felt_through(joint, &drives[j]);
+        let link = &mut bodies.links[j];
+        let (M, p) = link.felt_through(&drives[j]);
         let p_LP_B = -link.p_PL_B;
-        let parent = &mut bodies[joint.parent];
+        let parent = &mut bodies[k.robot.link(j).parent];
         parent.M += M.about(p_LP_B);
         parent.p += p.about(p_LP_B);
     }
@@ -97,80 +144,74 @@ pub fn driven_dynamics<T: Real, const J: usize>(
     let mut A_NB_B = PerBody { base: A_base, links: [SpatialAcceleration::zero(); J] };
     for j in k.robot.joints() {
         // Base to tip: the acceleration that is left for the joint.
-        let (joint, body) = (k.robot.joint(j), &bodies.links[j]);
-        let A = A_NB_B[joint.parent].shifted_by(body.p_PL_B) + body.A_bias;
+        let body = &bodies.links[j];
+        let A = A_NB_B[k.robot.link(j).parent].shifted_by(body.p_PL_B) + body.A_bias;
         let (qddot, tau) = match drives[j] {
             JointDrive::Effort(tau) => (body.D_inverse * (body.u - A.power(&body.U)), tau),
             JointDrive::Acceleration(qddot) => {
-                let F = body.M * (A + joint.motion_along(body.axis_B, qddot)) + body.p;
-                (qddot, joint.project_on(body.axis_B, &F))
+                let F = body.M * (A + body.axis.motion(qddot)) + body.p;
+                (qddot, body.axis.project(&F))
             }
         };
         (found.nudot.joints[j], found.force.joints[j]) = (qddot, tau);
-        A_NB_B.links[j] = A + joint.motion_along(body.axis_B, qddot);
+        A_NB_B.links[j] = A + body.axis.motion(qddot);
     }
     found
 }
 
 /// Accelerations that the given forces cause: `M⁻¹ (force - c + Σ Jᵀ F_ext)`.
 #[inline(always)]
-pub fn forward_dynamics<T: Real, const J: usize>(
+pub fn forward_dynamics<'a, T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     force: &GeneralizedForce<T, J>,
-    external: &PerBody<SpatialForce<T>, J>,
+    outside: impl Into<Outside<'a, T, J>>,
 ) -> GeneralizedVelocity<T, J> {
-    let mut with_base = *external;
+    let mut with_base = outside.into();
     with_base.base += force.base;
     let mut drives = [JointDrive::Effort(T::zero()); J];
     for j in k.robot.joints() {
         drives[j] = JointDrive::Effort(force.joints[j]);
     }
-    driven_dynamics(k, &drives, BaseMode::Free, &with_base).nudot
+    driven_dynamics(k, &drives, BaseMode::Free, with_base).nudot
 }
 
-/// Each body by itself, before it feels what it carries.
+/// Each link by itself, before it feels what it carries.
 #[inline(always)]
 fn alone<T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
-    external: &PerBody<SpatialForce<T>, J>,
+    outside: &Outside<'_, T, J>,
     bodies: &mut PerBody<Articulated<T>, J>,
 ) {
-    let o = Vec3::zero();
-    let w_NB_B = k.state.V_NB_B.angular;
-    bodies.base = rigid(k.robot.inertia(BodyId::Base), w_NB_B, &external.base);
-    bodies.base.R_BL = Mat3::identity();
     for j in k.robot.joints() {
-        let (joint, X_PL) = (k.robot.joint(j), &k.links[j].X_PB);
-        let parent = &bodies[joint.parent];
-        let (R_BP, w_P) = (&parent.R_BL, parent.w_NL_B);
-        let (R_BL, p_PL_B) = (*R_BP * X_PL.rotation, *R_BP * X_PL.translation);
-        let axis_B = R_BL * joint.axis_B;
-        let w_NL_B = w_P + joint.motion_along(axis_B, k.state.v[j]).angular;
-        let F_L = &external.links[j];
-        let F_B = SpatialForce::new(R_BL * F_L.torque, R_BL * F_L.force);
-        let M_B = k.robot.inertia(BodyId::Link(j)).in_axes(&R_BL);
-        let mut A_bias = joint.acceleration_along(axis_B, w_NL_B, k.state.v[j], T::zero());
-        A_bias += SpatialAcceleration::new(o, w_P.cross(w_P.cross(p_PL_B)));
-        bodies.links[j] = Articulated { R_BL, p_PL_B, axis_B, A_bias, ..rigid(&M_B, w_NL_B, &F_B) };
+        let (link, seat, qdot) = (k.robot.link(j), k.seat(j), k.state.v[j]);
+        let parent = &bodies[link.parent];
+        let (R_BL, p_PL_B) = (seat.carried_by(&parent.R_BL), parent.R_BL * seat.p_PL_P);
+        let axis = Axis { along_B: R_BL.column(2), kind: link.kind };
+        let w_P = parent.w_NL_B;
+        let w_NL_B = w_P + axis.motion(qdot).angular;
+        let mut A_bias = axis.bias(w_NL_B, qdot);
+        A_bias.linear += w_P.cross(w_P.cross(p_PL_B));
+        let mut body =
+            Articulated { R_BL, p_PL_B, axis, A_bias, ..rigid(&link.M_L.in_axes(&R_BL), w_NL_B) };
+        if let Some(F) = outside.on_link(k.robot, j) {
+            body.p = body.p - SpatialForce::new(R_BL * F.torque, R_BL * F.force);
+        }
+        bodies.links[j] = body;
     }
 }
 
-/// A body that turns with `w_NL_B` and carries nothing; all in base axes.
+/// A body at the base's attitude that turns with `w_NL_B`; all in base axes.
 #[inline(always)]
-fn rigid<T: Real>(
-    M_B: &SpatialInertia<T>,
-    w_NL_B: Vec3<T>,
-    external: &SpatialForce<T>,
-) -> Articulated<T> {
+fn rigid<T: Real>(M_B: &SpatialInertia<T>, w_NL_B: Vec3<T>) -> Articulated<T> {
     let torque = w_NL_B.cross(M_B.rotational * w_NL_B);
     let force = w_NL_B.cross(w_NL_B.cross(M_B.first_moment));
     Articulated {
-        R_BL: Mat3::zero(),
+        R_BL: Mat3::identity(),
         p_PL_B: Vec3::zero(),
-        axis_B: Vec3::zero(),
+        axis: Axis { along_B: Vec3::zero(), kind: JointKind::Revolute },
         w_NL_B,
         M: ArticulatedInertia::from_rigid(M_B),
-        p: SpatialForce::new(torque, force) - *external,
+        p: SpatialForce::new(torque, force),
         A_bias: SpatialAcceleration::zero(),
         U: SpatialForce::zero(),
         D_inverse: T::zero(),
@@ -181,22 +222,17 @@ fn rigid<T: Real>(
 impl<T: Real> Articulated<T> {
     /// Inertia and bias force that the parent feels through the joint, still at this body's origin.
     #[inline(always)]
-    fn felt_through(
-        &mut self,
-        joint: &Joint<T>,
-        drive: &JointDrive<T>,
-    ) -> (ArticulatedInertia<T>, SpatialForce<T>) {
+    fn felt_through(&mut self, drive: &JointDrive<T>) -> (ArticulatedInertia<T>, SpatialForce<T>) {
         match *drive {
             JointDrive::Effort(tau) => {
-                self.U = joint.force_along(self.axis_B, &self.M);
-                self.D_inverse = T::one() / joint.project_on(self.axis_B, &self.U);
-                self.u = tau - joint.project_on(self.axis_B, &self.p);
+                self.U = self.axis.force(&self.M);
+                self.D_inverse = T::one() / self.axis.project(&self.U);
+                self.u = tau - self.axis.project(&self.p);
                 let M = self.M.without(&self.U, self.D_inverse);
                 (M, self.p + M * self.A_bias + self.U * (self.u * self.D_inverse))
             }
             JointDrive::Acceleration(qddot) => {
-                let A = self.A_bias + joint.motion_along(self.axis_B, qddot);
-                (self.M, self.p + self.M * A)
+                (self.M, self.p + self.M * (self.A_bias + self.axis.motion(qddot)))
             }
         }
     }

@@ -4,7 +4,7 @@ use crate::inverse_dynamics_derivatives::Bodies;
 use crate::inverse_mass_matrix::{Elimination, Rows};
 use crate::{
     BaseColumns, BodyId, Generalized, GeneralizedForce, GeneralizedVelocity,
-    InverseDynamicsDerivatives, InverseMassMatrix, JointColumns, Kinematics, PerBody,
+    InverseDynamicsDerivatives, InverseMassMatrix, JointColumns, Kinematics, Outside,
 };
 use core::array;
 use wrasse_spatial::{Real, SpatialForce, SpatialVelocity, Vec3};
@@ -34,17 +34,18 @@ pub struct ForwardDynamicsDerivatives<T, const J: usize> {
 /// | name | meaning | unit |
 /// |---|---|---|
 /// | `force` | wrench on the base at Bo (base axes) and joint forces | N·m, N |
-/// | `external` | wrench on each body at its origin, in its axes | N·m, N |
+/// | `outside` | wrench on each body at its origin, in its axes | N·m, N |
 ///
 /// # Source
 /// J. Carpentier, N. Mansard, *Analytical derivatives of rigid body dynamics algorithms*, RSS 2018.
 #[doc(alias = "aba derivatives")]
 #[inline(always)]
-pub fn forward_dynamics_derivatives<T: Real, const J: usize>(
+pub fn forward_dynamics_derivatives<'a, T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     force: &GeneralizedForce<T, J>,
-    external: &PerBody<SpatialForce<T>, J>,
+    outside: impl Into<Outside<'a, T, J>>,
 ) -> ForwardDynamicsDerivatives<T, J> {
+    let outside = outside.into();
     // 1. The motion that the forces cause.
     let mut taken = InverseDynamicsDerivatives::nothing(k.robot.joint_count());
     let mut bodies = Bodies::nothing();
@@ -53,10 +54,10 @@ pub fn forward_dynamics_derivatives<T: Real, const J: usize>(
     let M = Elimination::new(k.robot, &taken.by_acceleration);
     let mut found = ForwardDynamicsDerivatives::nothing();
     M.inverse_into(&mut found.by_force);
-    let bias = bodies.project(k, &bodies.forces(k, &Generalized::default(), external));
+    let bias = bodies.project(k, &bodies.forces(k, &Generalized::default(), &outside));
     found.nudot = found.by_force.times(&difference(force, &bias));
     // 2. What more force a motion close to it would take.
-    let forces = bodies.forces(k, &found.nudot, external);
+    let forces = bodies.forces(k, &found.nudot, &outside);
     taken.differentiate(k, &bodies, &forces);
     // 3. That force is not there: the accelerations give way.
     give_way(&M, &taken.by_position, &mut found.by_position);

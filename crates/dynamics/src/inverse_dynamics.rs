@@ -1,16 +1,41 @@
 //! Inverse dynamics: the forces that a motion takes.
 
-use crate::{BodyId, Generalized, GeneralizedForce, GeneralizedVelocity, Kinematics, PerBody};
-use wrasse_spatial::{Real, SpatialAcceleration, SpatialForce, SpatialInertia, Vec3};
+use crate::{
+    BodyId, Generalized, GeneralizedForce, GeneralizedVelocity, JointKind, Kinematics, Outside,
+    PerBody, Robot,
+};
+use wrasse_spatial::{Mat3, Real, SpatialForce, SpatialInertia, Vec3, vec3};
 
 /// Forces of a motion: what drives it, and what each joint carries.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InverseDynamics<T, const J: usize> {
     /// Wrench on the base at Bo (base axes) and joint forces, `[torque; force; τ]`.
     pub force: GeneralizedForce<T, J>,
-    /// All six components that the parent exerts on each body through its joint, about the body's
+    /// What the parent exerts on each link through its joint, in the link's axes.
+    F_L: [SpatialForce<T>; J],
+}
+
+impl<T: Real, const J: usize> InverseDynamics<T, J> {
+    /// All six components that the parent exerts on a body through its joint, about the body's
     /// origin, in its axes (N·m, N). The base's is the wrench on the base.
-    pub F_B_B: PerBody<SpatialForce<T>, J>,
+    #[inline(always)]
+    pub fn F_B_B(&self, robot: &Robot<T, J>, body: BodyId) -> SpatialForce<T> {
+        let BodyId::Link(j) = body else { return self.force.base };
+        let (F_L, R_LB) = (&self.F_L[j], &robot.link(j).R_LB);
+        SpatialForce::new(R_LB.transpose_mul(F_L.torque), R_LB.transpose_mul(F_L.force))
+    }
+}
+
+/// How a body moves, in its axes; accelerations are what an observer in N measures.
+#[derive(Clone, Copy)]
+struct Motion<T> {
+    /// Turning rate (rad/s) and acceleration (rad/s²).
+    w: Vec3<T>,
+    alpha: Vec3<T>,
+    /// Acceleration of the origin (m/s²).
+    a: Vec3<T>,
+    /// How the acceleration changes from point to point of the body: `[α]× + [w]×[w]×` (1/s²).
+    gradient: Mat3<T>,
 }
 
 /// Wrench on the base and joint forces that give the accelerations `ν̇`:
@@ -20,37 +45,41 @@ pub struct InverseDynamics<T, const J: usize> {
 /// | name | meaning | unit |
 /// |---|---|---|
 /// | `nudot` | `[ẇ_NB_B; v̇_NB_B; q̈]`, time derivatives of the components | rad/s², m/s² |
-/// | `external` | wrench on each body at its origin, in its axes | N·m, N |
+/// | `outside` | wrench on each body at its origin, in its axes | N·m, N |
 ///
 /// # Source
 /// [`LuhWalkerPaul1980`](wrasse_spatial::references::LuhWalkerPaul1980), over a tree on a free base.
 #[doc(alias = "rnea")]
 #[inline(always)]
-pub fn inverse_dynamics<T: Real, const J: usize>(
+pub fn inverse_dynamics<'a, T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     nudot: &GeneralizedVelocity<T, J>,
-    external: &PerBody<SpatialForce<T>, J>,
+    outside: impl Into<Outside<'a, T, J>>,
 ) -> InverseDynamics<T, J> {
-    let mut F_B_B = own_forces(k, nudot);
-    F_B_B.base = F_B_B.base - external.base;
-    for j in k.robot.joints() {
-        F_B_B.links[j] = F_B_B.links[j] - external.links[j];
-    }
+    let outside = outside.into();
+    let (mut base, mut F_L) = own_forces(k, nudot);
+    base = base - outside.base;
     let mut joints = [T::zero(); J];
     for j in k.robot.joints().rev() {
         // Tip to base: the motor feels the part along its joint, the parent all of it.
-        let joint = k.robot.joint(j);
-        joints[j] = joint.project(&F_B_B.links[j]);
-        let onto_parent = k.links[j].X_PB.force_to_parent(&F_B_B.links[j]);
-        F_B_B[joint.parent] += onto_parent;
+        let link = k.robot.link(j);
+        if let Some(F) = outside.on_link(k.robot, j) {
+            F_L[j] = F_L[j] - F;
+        }
+        joints[j] = link.project(&F_L[j]);
+        let onto_parent = k.seat(j).force_to_parent(&F_L[j]);
+        match link.parent {
+            BodyId::Base => base += onto_parent,
+            BodyId::Link(p) => F_L[p.min(j)] += onto_parent,
+        }
     }
-    InverseDynamics { force: Generalized { base: F_B_B.base, joints }, F_B_B }
+    InverseDynamics { force: Generalized { base, joints }, F_L }
 }
 
 /// `c(q, ν)`: the forces that a motion without generalized acceleration takes.
 #[inline(always)]
 pub fn bias_force<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> GeneralizedForce<T, J> {
-    inverse_dynamics(k, &Generalized::default(), &PerBody::filled(SpatialForce::zero())).force
+    inverse_dynamics(k, &Generalized::default(), Outside::nothing()).force
 }
 
 /// What each body alone needs for its motion: the rate of its momentum.
@@ -58,41 +87,65 @@ pub fn bias_force<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> Generali
 fn own_forces<T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     nudot: &GeneralizedVelocity<T, J>,
-) -> PerBody<SpatialForce<T>, J> {
-    let V_NB_B = &k.state.V_NB_B;
-    let base = classical(&nudot.base, V_NB_B.angular.cross(V_NB_B.linear));
-    let mut A = PerBody { base, links: [SpatialAcceleration::zero(); J] };
-    let mut F_B_B = PerBody::filled(SpatialForce::zero());
-    F_B_B.base = own_force(k.robot.inertia(BodyId::Base), &V_NB_B.angular, &base);
+) -> (SpatialForce<T>, [SpatialForce<T>; J]) {
+    let (V, Vdot) = (&k.state.V_NB_B, &nudot.base);
+    // From the derivative of a twist's components to what an observer measures: v̇ + w × v.
+    let a = Vdot.linear + V.angular.cross(V.linear);
+    let mut motions: PerBody<_, J> = PerBody::filled(Motion::new(V.angular, Vdot.angular, a));
+    let mut F_L = [SpatialForce::zero(); J];
     for j in k.robot.joints() {
-        let (joint, link) = (k.robot.joint(j), &k.links[j]);
-        let (A_P, w_NP_P) = (&A[joint.parent], k.w_NB_B(joint.parent));
-        let (R, p) = (&link.X_PB.rotation, link.X_PB.translation);
-        let at_Bo = A_P.linear + A_P.angular.cross(p) + w_NP_P.cross(w_NP_P.cross(p));
-        let carried =
-            SpatialAcceleration::new(R.transpose_mul(A_P.angular), R.transpose_mul(at_Bo));
-        let A_B = carried + joint.acceleration(link.w_NB_B, k.state.v[j], nudot.joints[j]);
-        A.links[j] = A_B;
-        F_B_B.links[j] = own_force(k.robot.inertia(BodyId::Link(j)), &link.w_NB_B, &A_B);
+        let parent = &motions[k.robot.link(j).parent];
+        let motion = motion_of_link(k, j, parent, nudot.joints[j]);
+        F_L[j] = motion.force(&k.robot.link(j).M_L);
+        motions.links[j] = motion;
     }
-    F_B_B
+    (motions.base.force(k.robot.inertia(BodyId::Base)), F_L)
 }
 
-/// From the derivative of a twist's components to what an observer in N measures: `v̇ + w × v`.
+/// Motion of a link from that of its parent.
 #[inline(always)]
-fn classical<T: Real>(Vdot: &SpatialAcceleration<T>, w_cross_v: Vec3<T>) -> SpatialAcceleration<T> {
-    SpatialAcceleration::new(Vdot.angular, Vdot.linear + w_cross_v)
+fn motion_of_link<T: Real, const J: usize>(
+    k: &Kinematics<'_, T, J>,
+    j: usize,
+    parent: &Motion<T>,
+    qddot: T,
+) -> Motion<T> {
+    let (seat, qdot) = (k.seat(j), k.state.v[j]);
+    let mut w = seat.to_link(&parent.w);
+    let mut alpha = seat.to_link(&parent.alpha);
+    let mut a = seat.to_link(&(parent.a + parent.gradient * seat.p_PL_P));
+    // w × z q̇: what the turning parent does to the joint's motion.
+    let across = vec3(w.y * qdot, -(w.x * qdot), T::zero());
+    match k.robot.link(j).kind {
+        JointKind::Revolute => {
+            w.z += qdot;
+            alpha = vec3(alpha.x + across.x, alpha.y + across.y, alpha.z + qddot);
+        }
+        JointKind::Prismatic => {
+            let two = T::from_f64(2.0);
+            a = vec3(a.x + across.x * two, a.y + across.y * two, a.z + qddot);
+        }
+    }
+    Motion::new(w, alpha, a)
 }
 
-/// Newton and Euler about Bo, from the classical acceleration of Bo.
-#[inline(always)]
-fn own_force<T: Real>(
-    M_B: &SpatialInertia<T>,
-    w: &Vec3<T>,
-    A: &SpatialAcceleration<T>,
-) -> SpatialForce<T> {
-    let (h, I) = (M_B.first_moment, M_B.rotational);
-    let force = A.linear * M_B.mass + A.angular.cross(h) + w.cross(w.cross(h));
-    let torque = I * A.angular + w.cross(I * *w) + h.cross(A.linear);
-    SpatialForce::new(torque, force)
+impl<T: Real> Motion<T> {
+    #[inline(always)]
+    fn new(w: Vec3<T>, alpha: Vec3<T>, a: Vec3<T>) -> Self {
+        let (xx, yy, zz) = (w.x * w.x, w.y * w.y, w.z * w.z);
+        let (xy, xz, yz) = (w.x * w.y, w.x * w.z, w.y * w.z);
+        let gradient = Mat3::from_rows(
+            vec3(-(yy + zz), xy - alpha.z, xz + alpha.y),
+            vec3(xy + alpha.z, -(xx + zz), yz - alpha.x),
+            vec3(xz - alpha.y, yz + alpha.x, -(xx + yy)),
+        );
+        Self { w, alpha, a, gradient }
+    }
+    /// Newton and Euler about the origin.
+    #[inline(always)]
+    fn force(&self, M: &SpatialInertia<T>) -> SpatialForce<T> {
+        let (h, I) = (M.first_moment, M.rotational);
+        let torque = I * self.alpha + self.w.cross(I * self.w) + h.cross(self.a);
+        SpatialForce::new(torque, self.a * M.mass + self.gradient * h)
+    }
 }

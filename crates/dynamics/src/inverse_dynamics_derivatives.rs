@@ -4,8 +4,8 @@
 //! bodies, and what a joint carries is a plain sum.
 
 use crate::{
-    BaseRows, BodyId, Generalized, GeneralizedForce, GeneralizedVelocity, Joint, JointKind,
-    Kinematics, MassMatrix, PerBody,
+    BaseRows, BodyId, Generalized, GeneralizedForce, GeneralizedVelocity, JointKind, Kinematics,
+    Link, MassMatrix, Outside, PerBody, Seat,
 };
 use core::ops::AddAssign;
 use wrasse_spatial::{
@@ -70,7 +70,7 @@ pub struct InverseDynamicsDerivatives<T, const J: usize> {
 /// How one body moves, and its joint; about Bo, base axes.
 #[derive(Clone, Copy)]
 pub(crate) struct Motion<T> {
-    X_0B: Pose<T>,
+    X_0L: Pose<T>,
     V: SpatialVelocity<T>,
     /// Twist of a unit rate of the joint.
     pub(crate) S: SpatialVelocity<T>,
@@ -83,18 +83,18 @@ impl<T: Real> Motion<T> {
     #[inline(always)]
     fn of_base(V: SpatialVelocity<T>) -> Self {
         let none = SpatialVelocity::zero();
-        Self { X_0B: Pose::identity(), V, S: none, Sdot: none }
+        Self { X_0L: Pose::identity(), V, S: none, Sdot: none }
     }
     /// Of a body from that of its parent, at joint rate `v`.
     #[inline(always)]
-    fn of_child(&self, joint: &Joint<T>, X_PB: &Pose<T>, v: T) -> Self {
-        let X_0B = self.X_0B * *X_PB;
-        let axis = X_0B.rotation * joint.axis_B;
-        let S = match joint.kind {
-            JointKind::Revolute => SpatialVelocity::new(axis, X_0B.translation.cross(axis)),
+    fn of_child(&self, link: &Link<T>, seat: &Seat<'_, T>, v: T) -> Self {
+        let X_0L = seat.pose(&self.X_0L);
+        let axis = X_0L.rotation.column(2);
+        let S = match link.kind {
+            JointKind::Revolute => SpatialVelocity::new(axis, X_0L.translation.cross(axis)),
             JointKind::Prismatic => SpatialVelocity::new(Vec3::zero(), axis),
         };
-        Self { X_0B, V: self.V + S * v, S, Sdot: self.V.cross(&S) }
+        Self { X_0L, V: self.V + S * v, S, Sdot: self.V.cross(&S) }
     }
 }
 
@@ -137,7 +137,7 @@ impl<T: Real> Matter<T> {
     /// Of one body.
     #[inline(always)]
     fn of_body(M_B_B: &SpatialInertia<T>, motion: &Motion<T>) -> Self {
-        let (R, p) = (motion.X_0B.rotation, motion.X_0B.translation);
+        let (R, p) = (motion.X_0L.rotation, motion.X_0L.translation);
         let turned = R * M_B_B.first_moment;
         let first = turned + p * M_B_B.mass;
         let second = R.congruence(second_moment(&M_B_B.rotational)) + mixed(turned, p, first);
@@ -271,10 +271,9 @@ impl<T: Real, const J: usize> Bodies<T, J> {
         let matter = Matter::of_body(k.robot.inertia(BodyId::Base), &base);
         (self.motions.base, self.matter.base, self.carried.base) = (base, matter, matter);
         for j in k.robot.joints() {
-            let joint = k.robot.joint(j);
-            let parent = &self.motions[joint.parent];
-            let motion = parent.of_child(joint, &k.links[j].X_PB, k.state.v[j]);
-            let matter = Matter::of_body(k.robot.inertia(BodyId::Link(j)), &motion);
+            let link = k.robot.link(j);
+            let motion = self.motions[link.parent].of_child(link, &k.seat(j), k.state.v[j]);
+            let matter = Matter::of_body(&link.M_L, &motion);
             self.motions.links[j] = motion;
             self.matter.links[j] = matter;
             self.carried.links[j] = matter;
@@ -290,11 +289,15 @@ impl<T: Real, const J: usize> Bodies<T, J> {
         &self,
         k: &Kinematics<'_, T, J>,
         nudot: &GeneralizedVelocity<T, J>,
-        external: &PerBody<SpatialForce<T>, J>,
+        outside: &Outside<'_, T, J>,
     ) -> Forces<T, J> {
         let force = |body: BodyId, A: &SpatialVelocity<T>| {
             let motion = &self.motions[body];
-            self.matter[body].force(&motion.V, A) - motion.X_0B.force_to_parent(&external[body])
+            let taken = self.matter[body].force(&motion.V, A);
+            match outside.on(k.robot, body) {
+                Some(F) => taken - motion.X_0L.force_to_parent(&F),
+                None => taken,
+            }
         };
         let mut found = Forces {
             A: PerBody::filled(nudot.base),
@@ -347,7 +350,7 @@ impl<T: Real, const J: usize> Bodies<T, J> {
 /// | name | meaning | unit |
 /// |---|---|---|
 /// | `nudot` | `[ẇ_NB_B; v̇_NB_B; q̈]`, time derivatives of the components | rad/s², m/s² |
-/// | `external` | wrench on each body at its origin, in its axes | N·m, N |
+/// | `outside` | wrench on each body at its origin, in its axes | N·m, N |
 ///
 /// # Source
 /// J. Carpentier, N. Mansard, *Analytical derivatives of rigid body dynamics algorithms*, RSS 2018;
@@ -355,16 +358,16 @@ impl<T: Real, const J: usize> Bodies<T, J> {
 /// spatial vector algebra*, IEEE Robotics and Automation Letters 7(2), 2022.
 #[doc(alias = "rnea derivatives")]
 #[inline(always)]
-pub fn inverse_dynamics_derivatives<T: Real, const J: usize>(
+pub fn inverse_dynamics_derivatives<'a, T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     nudot: &GeneralizedVelocity<T, J>,
-    external: &PerBody<SpatialForce<T>, J>,
+    outside: impl Into<Outside<'a, T, J>>,
 ) -> InverseDynamicsDerivatives<T, J> {
     let mut found = InverseDynamicsDerivatives::nothing(k.robot.joint_count());
     let mut bodies = Bodies::nothing();
     bodies.observe(k);
     bodies.mass_matrix_into(k, &mut found.by_acceleration);
-    let forces = bodies.forces(k, nudot, external);
+    let forces = bodies.forces(k, nudot, &outside.into());
     found.force = bodies.project(k, &forces);
     found.differentiate(k, &bodies, &forces);
     found

@@ -1,7 +1,7 @@
 //! The Jacobian of a frame and what its change adds to the acceleration.
 
 use crate::robot::within;
-use crate::{BodyId, Frame, Generalized, GeneralizedVelocity, Kinematics, PerBody};
+use crate::{BodyId, Frame, Generalized, GeneralizedVelocity, JointKind, Kinematics, PerBody};
 use core::array;
 use wrasse_spatial::{Mat3, Real, SpatialAcceleration, SpatialVelocity, Vec3};
 
@@ -48,17 +48,22 @@ pub fn jacobian<T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     frame: &Frame<T>,
 ) -> Jacobian<T, J> {
-    let X_NB = k.poses();
-    let p_NE = X_NB[frame.body].point(frame.X_BF.translation);
+    let X_NL = k.link_poses(&k.state.X_NB);
+    let p_NE = X_NL[frame.body].point(k.robot.in_link(frame.body, frame.X_BF.translation));
     let mut joints = [SpatialVelocity::zero(); J];
     let mut at = frame.body;
     while let BodyId::Link(j) = at {
         let j = within::<J>(j);
         // Twist of the link for unit rate, carried to E.
-        let (joint, X_NL) = (k.robot.joint(j), &X_NB.links[j]);
-        let at_L = joint.motion_along(X_NL.rotation * joint.axis_B, T::one());
-        joints[j] = at_L.shifted_by(p_NE - X_NL.translation);
-        at = joint.parent;
+        let (link, X_NL) = (k.robot.link(j), &X_NL.links[j]);
+        let axis_N = X_NL.rotation.column(2);
+        joints[j] = match link.kind {
+            JointKind::Revolute => {
+                SpatialVelocity::new(axis_N, axis_N.cross(p_NE - X_NL.translation))
+            }
+            JointKind::Prismatic => SpatialVelocity::new(Vec3::zero(), axis_N),
+        };
+        at = link.parent;
     }
     let X_NB = &k.state.X_NB;
     Jacobian { R_NB: X_NB.rotation, p_BE_N: p_NE - X_NB.translation, joints }
@@ -90,7 +95,7 @@ pub(crate) fn spatial_accelerations<T: Real, const J: usize>(
     for j in k.robot.joints() {
         let joint = k.robot.joint(j);
         let VJ_B = joint.velocity(k.state.v[j]);
-        A_NB_B.links[j] = k.links[j].X_PB.velocity_to_child(&A_NB_B[joint.parent])
+        A_NB_B.links[j] = k.X_PB(j).velocity_to_child(&A_NB_B[joint.parent])
             + joint.velocity(nudot.joints[j])
             + V_NB_B.links[j].cross(&VJ_B);
     }

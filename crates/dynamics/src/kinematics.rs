@@ -1,33 +1,24 @@
-//! Poses and turning rates of all bodies, base to tips.
+//! How each joint carries its link, and what follows: poses and twists of all bodies.
 
 use crate::robot::within;
-use crate::{BodyId, Frame, PerBody, Robot, State};
-use wrasse_spatial::{Mat3, Pose, Real, SpatialVelocity, Vec3};
+use crate::{BodyId, Frame, Link, PerBody, Robot, Seat, State};
+use wrasse_spatial::{Mat3, Pose, Real, SpatialVelocity, Turn, Vec3};
 
-/// Poses and twists of one robot in one state. It borrows both, so they cannot go stale.
+/// How one robot is bent in one state. It borrows both, so they cannot go stale.
 ///
-/// Kept is what every algorithm needs: how each joint carries its body. Poses in inertial axes and
-/// twists are worked out for those that ask.
+/// Kept is what every algorithm needs: the sine and cosine of each joint. Poses and twists are worked
+/// out for those that ask.
 #[derive(Debug, Clone)]
 pub struct Kinematics<'a, T, const J: usize> {
     /// The robot.
     pub robot: &'a Robot<T, J>,
     /// Its state.
     pub state: &'a State<T, J>,
-    /// By joint number.
-    pub(crate) links: [Link<T>; J],
+    /// θ of each link.
+    turns: [Turn<T>; J],
 }
 
-/// A link as its joint carries it.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Link<T> {
-    /// `X_PB`.
-    pub(crate) X_PB: Pose<T>,
-    /// `w_NB_B` (rad/s).
-    pub(crate) w_NB_B: Vec3<T>,
-}
-
-/// Poses and turning rates of all bodies.
+/// How a robot is bent in a state.
 ///
 /// # Source
 /// [`Featherstone2008`](wrasse_spatial::references::Featherstone2008) ch. 4.
@@ -36,68 +27,95 @@ pub fn kinematics<'a, T: Real, const J: usize>(
     robot: &'a Robot<T, J>,
     state: &'a State<T, J>,
 ) -> Kinematics<'a, T, J> {
-    let still = Link { X_PB: Pose::new(Mat3::zero(), Vec3::zero()), w_NB_B: Vec3::zero() };
-    let mut k = Kinematics { robot, state, links: [still; J] };
-    let (sin, cos) = T::sin_cos_each(&state.q, robot.joint_count());
+    let mut theta = [T::zero(); J];
     for j in robot.joints() {
-        let joint = robot.joint(j);
-        let X_PB = joint.X_PB_turned(state.q[j], sin[j], cos[j]);
-        let w_NP_P = match joint.parent {
-            BodyId::Base => &state.V_NB_B.angular,
-            BodyId::Link(p) => &k.links[within::<J>(p)].w_NB_B,
-        };
-        let w_NB_B = X_PB.rotation.transpose_mul(*w_NP_P) + joint.turning(state.v[j]);
-        k.links[j] = Link { X_PB, w_NB_B };
+        theta[j] = robot.link(j).theta(state.q[j]);
     }
-    k
+    let (sin, cos) = T::sin_cos_each(&theta, robot.joint_count());
+    let mut turns = [Turn::none(); J];
+    for j in robot.joints() {
+        turns[j] = Turn { sin: sin[j], cos: cos[j] };
+    }
+    Kinematics { robot, state, turns }
 }
 
-impl<T: Real, const J: usize> Kinematics<'_, T, J> {
+impl<'a, T: Real, const J: usize> Kinematics<'a, T, J> {
+    /// A link on its parent.
+    #[inline(always)]
+    pub fn seat(&self, j: usize) -> Seat<'a, T> {
+        let j = within::<J>(j);
+        self.robot.link(j).seat(self.turns[j], self.state.q[j])
+    }
+    /// Poses `X_AL` of all links, seen from where the base is at `X_AB`.
+    #[inline(always)]
+    pub(crate) fn link_poses(&self, X_AB: &Pose<T>) -> PerBody<Pose<T>, J> {
+        let mut X_AL = PerBody::filled(*X_AB);
+        for j in self.robot.joints() {
+            X_AL.links[j] = self.seat(j).pose(&X_AL[self.robot.link(j).parent]);
+        }
+        X_AL
+    }
+    /// Twists `V_NL_L` of all links (rad/s, m/s).
+    #[inline(always)]
+    pub(crate) fn link_twists(&self) -> PerBody<SpatialVelocity<T>, J> {
+        let mut V = PerBody::filled(self.state.V_NB_B);
+        for j in self.robot.joints() {
+            let link = self.robot.link(j);
+            let carried = self.seat(j).velocity_to_link(&V[link.parent]);
+            V.links[j] = carried + link.velocity(self.state.v[j]);
+        }
+        V
+    }
+    /// Pose `X_PB` of the body that a joint carries, from the body it is mounted on.
+    #[inline(always)]
+    pub(crate) fn X_PB(&self, j: usize) -> Pose<T> {
+        let (link, seat) = (self.robot.link(j), self.seat(j));
+        let R_BpP = match link.parent {
+            BodyId::Base => Mat3::identity(),
+            BodyId::Link(p) => self.robot.link(p).R_LB.transpose(),
+        };
+        Pose::new(seat.carried_by(&R_BpP) * link.R_LB, R_BpP * seat.p_PL_P)
+    }
     /// Pose `X_NB` of a body.
     #[inline(always)]
     pub fn X_NB(&self, body: BodyId) -> Pose<T> {
         let (mut X, mut at) = (Pose::identity(), body);
         while let BodyId::Link(j) = at {
-            X = self.links[within::<J>(j)].X_PB * X;
-            at = self.robot.joint(j).parent;
+            X = self.X_PB(j) * X;
+            at = self.robot.link(j).parent;
         }
         self.state.X_NB * X
     }
     /// Poses `X_NB` of all bodies.
     #[inline(always)]
     pub fn poses(&self) -> PerBody<Pose<T>, J> {
-        let mut X = PerBody::filled(self.state.X_NB);
+        let mut X = self.link_poses(&self.state.X_NB);
         for j in self.robot.joints() {
-            X.links[j] = X[self.robot.joint(j).parent] * self.links[j].X_PB;
+            X.links[j].rotation = X.links[j].rotation * self.robot.link(j).R_LB;
         }
         X
     }
     /// Turning rate `w_NB_B` of a body (rad/s).
     #[inline(always)]
     pub fn w_NB_B(&self, body: BodyId) -> Vec3<T> {
-        match body {
-            BodyId::Base => self.state.V_NB_B.angular,
-            BodyId::Link(j) => self.links[within::<J>(j)].w_NB_B,
-        }
+        self.V_NB_B(body).angular
     }
     /// Twist `V_NB_B` of a body (rad/s, m/s).
     #[inline(always)]
     pub fn V_NB_B(&self, body: BodyId) -> SpatialVelocity<T> {
         match body {
             BodyId::Base => self.state.V_NB_B,
-            BodyId::Link(_) => self.twists()[body],
+            BodyId::Link(j) => self.robot.link(j).in_body(&self.link_twists()[body]),
         }
     }
     /// Twists `V_NB_B` of all bodies (rad/s, m/s).
     #[inline(always)]
     pub fn twists(&self) -> PerBody<SpatialVelocity<T>, J> {
-        let mut V_NB_B = PerBody { base: self.state.V_NB_B, links: [self.state.V_NB_B; J] };
+        let mut V = self.link_twists();
         for j in self.robot.joints() {
-            let joint = self.robot.joint(j);
-            let carried = self.links[j].X_PB.velocity_to_child(&V_NB_B[joint.parent]);
-            V_NB_B.links[j] = carried + joint.velocity(self.state.v[j]);
+            V.links[j] = self.robot.link(j).in_body(&V.links[j]);
         }
-        V_NB_B
+        V
     }
     /// Pose `X_NF` of a frame.
     #[inline(always)]
@@ -123,14 +141,14 @@ impl<T: Real, const J: usize> Kinematics<'_, T, J> {
         // Mass and first moment of what each joint carries, tip to base.
         let mut carried: PerBody<_, J> = PerBody::filled((T::zero(), Vec3::zero()));
         for body in self.robot.bodies() {
-            let M = self.robot.inertia(body);
+            let M = self.robot.inertia_in_link(body);
             carried[body] = (M.mass, M.first_moment);
         }
         for j in self.robot.joints().rev() {
-            let ((mass, moment), X_PB) = (carried.links[j], &self.links[j].X_PB);
-            let parent = &mut carried[self.robot.joint(j).parent];
+            let ((mass, moment), seat) = (carried.links[j], self.seat(j));
+            let parent = &mut carried[self.robot.link(j).parent];
             parent.0 += mass;
-            parent.1 += X_PB.rotation * moment + X_PB.translation * mass;
+            parent.1 += seat.to_parent(&moment) + seat.p_PL_P * mass;
         }
         let (mass, moment_B) = carried.base;
         (mass, moment_B * (T::one() / mass))
@@ -139,5 +157,14 @@ impl<T: Real, const J: usize> Kinematics<'_, T, J> {
     pub fn joint_origin(&self, j: usize) -> Vec3<T> {
         let joint = self.robot.joint(j);
         self.X_NB(joint.parent).point(joint.X_PB_zero.translation)
+    }
+}
+
+impl<T: Real> Link<T> {
+    /// A twist in the link's axes, in its body's.
+    #[inline(always)]
+    fn in_body(&self, V_L: &SpatialVelocity<T>) -> SpatialVelocity<T> {
+        let R_LB = &self.R_LB;
+        SpatialVelocity::new(R_LB.transpose_mul(V_L.angular), R_LB.transpose_mul(V_L.linear))
     }
 }

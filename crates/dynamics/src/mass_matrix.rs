@@ -3,7 +3,7 @@
 use crate::robot::within;
 use crate::{BodyId, Kinematics, PerBody};
 use core::ops::Deref;
-use wrasse_spatial::{Mat3, Real, SpatialForce, SpatialInertia, Vec3};
+use wrasse_spatial::{Pose, Real, SpatialForce, SpatialInertia};
 
 /// The base's rows of `M(q)`: momentum of the whole system about Bo, in base axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,23 +33,9 @@ impl<T, const J: usize> Deref for MassMatrix<T, J> {
     }
 }
 
-/// What a joint carries, joints behind it locked, in base axes about the link's own origin.
-#[derive(Clone, Copy)]
-struct Composite<T> {
-    R_BL: Mat3<T>,
-    /// From Bo, and from the parent's origin, to the link's (m).
-    p_BL_B: Vec3<T>,
-    p_PL_B: Vec3<T>,
-    /// The joint's axis (–).
-    axis_B: Vec3<T>,
-    M_B: SpatialInertia<T>,
-}
-
 /// Mass matrix by composite rigid bodies.
 ///
-/// `M` is symmetric positive definite and `½ νᵀ M ν` is the kinetic energy (J). All is in base axes,
-/// so that nothing is turned on the way down the tree, and about each link's own origin, so that
-/// nothing is lost by long levers.
+/// `M` is symmetric positive definite and `½ νᵀ M ν` is the kinetic energy (J).
 ///
 /// # Source
 /// [`Featherstone2008`](wrasse_spatial::references::Featherstone2008) ch. 6, table 6.2; ch. 9.4 for
@@ -57,82 +43,52 @@ struct Composite<T> {
 #[doc(alias = "crba")]
 #[inline(always)]
 pub fn mass_matrix<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> MassMatrix<T, J> {
-    let mut carried = PerBody::filled(Composite::nothing());
-    composites(k, &mut carried);
-    let mut M = MassMatrix { base: rows_of(k, &carried), M_jj: [[T::zero(); J]; J] };
+    let carried = composites(k);
+    let mut M_bj = [SpatialForce::zero(); J];
+    let mut M_jj = [[T::zero(); J]; J];
     for j in k.robot.joints() {
-        let link = &carried.links[j];
-        let mut F = k.robot.joint(j).momentum_along(link.axis_B, &link.M_B);
-        M.M_jj[j][j] = k.robot.joint(j).project_on(link.axis_B, &F);
-        let (mut p_PL_B, mut parent) = (link.p_PL_B, k.robot.joint(j).parent);
-        // The same momentum, about the origin of each link on the way to the base.
+        let link = k.robot.link(j);
+        let mut F = link.momentum(&carried.links[j]);
+        M_jj[j][j] = link.project(&F);
+        let (mut seat, mut parent) = (k.seat(j), link.parent);
+        // The same momentum, as each link on the way to the base feels it.
         while let BodyId::Link(p) = parent {
             let p = within::<J>(p);
-            let below = &carried.links[p];
-            F = F.about(-p_PL_B);
-            let coupling = k.robot.joint(p).project_on(below.axis_B, &F);
-            M.M_jj[j][p] = coupling;
-            M.M_jj[p][j] = coupling;
-            (p_PL_B, parent) = (below.p_PL_B, k.robot.joint(p).parent);
+            F = seat.force_to_parent(&F);
+            let coupling = k.robot.link(p).project(&F);
+            M_jj[j][p] = coupling;
+            M_jj[p][j] = coupling;
+            (seat, parent) = (k.seat(p), k.robot.link(p).parent);
         }
+        M_bj[j] = seat.force_to_parent(&F);
     }
-    M
+    let base = BaseRows { count: k.robot.joint_count(), M_bb: carried.base, M_bj };
+    MassMatrix { base, M_jj }
 }
 
 /// The base's rows alone: all that momentum needs.
 #[inline(always)]
 pub fn base_rows<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> BaseRows<T, J> {
-    let mut carried = PerBody::filled(Composite::nothing());
-    composites(k, &mut carried);
-    rows_of(k, &carried)
-}
-
-#[inline(always)]
-fn rows_of<T: Real, const J: usize>(
-    k: &Kinematics<'_, T, J>,
-    carried: &PerBody<Composite<T>, J>,
-) -> BaseRows<T, J> {
+    let (carried, X_BL) = (composites(k), k.link_poses(&Pose::identity()));
     let mut M_bj = [SpatialForce::zero(); J];
     for j in k.robot.joints() {
-        let link = &carried.links[j];
-        let F = k.robot.joint(j).momentum_along(link.axis_B, &link.M_B);
-        M_bj[j] = F.about(-link.p_BL_B);
+        M_bj[j] = X_BL.links[j].force_to_parent(&k.robot.link(j).momentum(&carried.links[j]));
     }
-    BaseRows { count: k.robot.joint_count(), M_bb: carried.base.M_B, M_bj }
+    BaseRows { count: k.robot.joint_count(), M_bb: carried.base, M_bj }
 }
 
-/// What each joint carries; the base's is the whole system.
+/// What each joint carries, joints behind it locked, in the link's axes; the base's is all.
 #[inline(always)]
-fn composites<T: Real, const J: usize>(
-    k: &Kinematics<'_, T, J>,
-    carried: &mut PerBody<Composite<T>, J>,
-) {
-    carried.base.R_BL = Mat3::identity();
-    carried.base.M_B = *k.robot.inertia(BodyId::Base);
+fn composites<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> PerBody<SpatialInertia<T>, J> {
+    let mut carried = PerBody::filled(*k.robot.inertia(BodyId::Base));
     for j in k.robot.joints() {
-        let (joint, X_PL) = (k.robot.joint(j), &k.links[j].X_PB);
-        let parent = &carried[joint.parent];
-        let R_BL = parent.R_BL * X_PL.rotation;
-        let p_PL_B = parent.R_BL * X_PL.translation;
-        let p_BL_B = parent.p_BL_B + p_PL_B;
-        let M_B = k.robot.inertia(BodyId::Link(j)).in_axes(&R_BL);
-        let link = &mut carried.links[j];
-        (link.p_BL_B, link.p_PL_B) = (p_BL_B, p_PL_B);
-        (link.R_BL, link.axis_B, link.M_B) = (R_BL, R_BL * joint.axis_B, M_B);
+        carried.links[j] = k.robot.link(j).M_L;
     }
     for j in k.robot.joints().rev() {
-        let link = &carried.links[j];
-        let M_B = link.M_B.about(-link.p_PL_B);
-        carried[k.robot.joint(j).parent].M_B += M_B;
+        let behind = k.seat(j).inertia_to_parent(&carried.links[j]);
+        carried[k.robot.link(j).parent] += behind;
     }
-}
-
-impl<T: Real> Composite<T> {
-    #[inline(always)]
-    fn nothing() -> Self {
-        let (o, M_B) = (Vec3::zero(), SpatialInertia::zero());
-        Self { R_BL: Mat3::zero(), p_BL_B: o, p_PL_B: o, axis_B: o, M_B }
-    }
+    carried
 }
 
 impl<T: Real, const J: usize> BaseRows<T, J> {

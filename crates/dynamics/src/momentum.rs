@@ -20,14 +20,14 @@ pub struct Momentum<T> {
 #[inline(always)]
 pub fn momentum<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> Momentum<T> {
     let (mass, p_BScm_B) = k.centre_of_mass_B();
-    let V_NB_B = k.twists();
+    let V = k.link_twists();
     let mut h_B: PerBody<SpatialMomentum<T>, J> = PerBody::filled(SpatialMomentum::zero());
     for body in k.robot.bodies() {
-        h_B[body] = *k.robot.inertia(body) * V_NB_B[body];
+        h_B[body] = *k.robot.inertia_in_link(body) * V[body];
     }
     for j in k.robot.joints().rev() {
-        let onto_parent = k.links[j].X_PB.force_to_parent(&h_B.links[j]);
-        h_B[k.robot.joint(j).parent] += onto_parent;
+        let onto_parent = k.seat(j).force_to_parent(&h_B.links[j]);
+        h_B[k.robot.link(j).parent] += onto_parent;
     }
     let X_NB = &k.state.X_NB;
     let about_cm = h_B.base.about(p_BScm_B);

@@ -1,9 +1,10 @@
 //! The robot: a checked, immutable tree of bodies; its state; the vectors that go with it.
 
+use crate::Link;
 use core::fmt;
 use core::ops::{Index, IndexMut, Range};
 use wrasse_spatial::{
-    ArticulatedInertia, Mat3, Pose, Real, SpatialForce, SpatialInertia, SpatialVelocity, Sym3, Vec3,
+    Mat3, Pose, Real, Scalar, SpatialForce, SpatialInertia, SpatialVelocity, Sym3, Vec3,
 };
 
 /// One of the robot's moving bodies. Links that are fixed to each other are one body.
@@ -61,14 +62,9 @@ impl<T: Real> Joint<T> {
     /// `X_PB` at travel `q` (rad or m).
     #[inline(always)]
     pub fn X_PB(&self, q: T) -> Pose<T> {
-        let (sin, cos) = q.sin_cos();
-        self.X_PB_turned(q, sin, cos)
-    }
-    /// `X_PB` at travel `q` (rad or m), whose sine and cosine are known.
-    #[inline(always)]
-    pub(crate) fn X_PB_turned(&self, q: T, sin: T, cos: T) -> Pose<T> {
         match self.kind {
             JointKind::Revolute => {
+                let (sin, cos) = q.sin_cos();
                 let [along, sine, cosine] = &self.turn;
                 let R_PB = *along + sine.scaled(sin) + cosine.scaled(cos);
                 Pose::new(R_PB, self.X_PB_zero.translation)
@@ -78,82 +74,21 @@ impl<T: Real> Joint<T> {
             }
         }
     }
-    /// What the joint adds to the turning rate, in B axes (rad/s).
-    #[inline(always)]
-    pub(crate) fn turning(&self, qdot: T) -> Vec3<T> {
-        match self.kind {
-            JointKind::Revolute => self.axis_B * qdot,
-            JointKind::Prismatic => Vec3::zero(),
-        }
-    }
-    /// What the joint adds to the classical acceleration of B at Bo, in B axes, when B turns with
-    /// `w_NB_B` (rad/s²; m/s²).
-    #[inline(always)]
-    pub(crate) fn acceleration(&self, w_NB_B: Vec3<T>, qdot: T, qddot: T) -> SpatialVelocity<T> {
-        self.acceleration_along(self.axis_B, w_NB_B, qdot, qddot)
-    }
-    /// The same in the axes of the axis.
-    #[inline(always)]
-    pub(crate) fn acceleration_along(
-        &self,
-        axis: Vec3<T>,
-        w_NB: Vec3<T>,
-        qdot: T,
-        qddot: T,
-    ) -> SpatialVelocity<T> {
-        let (along, across) = (axis * qddot, w_NB.cross(axis * qdot));
-        match self.kind {
-            JointKind::Revolute => SpatialVelocity::new(along + across, Vec3::zero()),
-            JointKind::Prismatic => {
-                SpatialVelocity::new(Vec3::zero(), along + across * T::from_f64(2.0))
-            }
-        }
-    }
     /// `S_B q̇`: velocity of B relative to its parent, at Bo, in B axes, for the joint rate `qdot`.
     #[inline(always)]
     pub fn velocity(&self, qdot: T) -> SpatialVelocity<T> {
-        self.motion_along(self.axis_B, qdot)
-    }
-    /// `M S`: momentum of an inertia that moves with unit joint rate, in the axes of both.
-    #[inline(always)]
-    pub(crate) fn momentum_along(&self, axis: Vec3<T>, M: &SpatialInertia<T>) -> SpatialForce<T> {
         match self.kind {
-            JointKind::Revolute => {
-                SpatialForce::new(M.rotational * axis, axis.cross(M.first_moment))
-            }
-            JointKind::Prismatic => SpatialForce::new(M.first_moment.cross(axis), axis * M.mass),
-        }
-    }
-    /// The same of an inertia that carries a tree.
-    #[inline(always)]
-    pub(crate) fn force_along(&self, axis: Vec3<T>, M: &ArticulatedInertia<T>) -> SpatialForce<T> {
-        match self.kind {
-            JointKind::Revolute => {
-                SpatialForce::new(M.angular * axis, M.coupling.transpose_mul(axis))
-            }
-            JointKind::Prismatic => SpatialForce::new(M.coupling * axis, M.linear * axis),
-        }
-    }
-    /// `Sᵀ F`, in the axes of both.
-    #[inline(always)]
-    pub(crate) fn project_on(&self, axis: Vec3<T>, F: &SpatialForce<T>) -> T {
-        match self.kind {
-            JointKind::Revolute => axis.dot(F.torque),
-            JointKind::Prismatic => axis.dot(F.force),
-        }
-    }
-    /// `S q̈`, in the axes of the axis.
-    #[inline(always)]
-    pub(crate) fn motion_along(&self, axis: Vec3<T>, rate: T) -> SpatialVelocity<T> {
-        match self.kind {
-            JointKind::Revolute => SpatialVelocity::new(axis * rate, Vec3::zero()),
-            JointKind::Prismatic => SpatialVelocity::new(Vec3::zero(), axis * rate),
+            JointKind::Revolute => SpatialVelocity::new(self.axis_B * qdot, Vec3::zero()),
+            JointKind::Prismatic => SpatialVelocity::new(Vec3::zero(), self.axis_B * qdot),
         }
     }
     /// `S_Bᵀ F_B_B`: the part of a force that the joint's motor feels (N·m or N).
     #[inline(always)]
     pub fn project(&self, F_B_B: &SpatialForce<T>) -> T {
-        self.project_on(self.axis_B, F_B_B)
+        match self.kind {
+            JointKind::Revolute => self.axis_B.dot(F_B_B.torque),
+            JointKind::Prismatic => self.axis_B.dot(F_B_B.force),
+        }
     }
 }
 
@@ -236,6 +171,7 @@ pub struct Robot<T, const J: usize> {
     pub(crate) count: usize,
     pub(crate) joints: [Joint<T>; J],
     pub(crate) matter: PerBody<Payload<T>, J>,
+    pub(crate) links: [Link<T>; J],
 }
 
 /// Why a robot cannot be built.
@@ -270,7 +206,7 @@ impl fmt::Display for RobotError {
 }
 impl core::error::Error for RobotError {}
 
-impl<T: Real, const J: usize> Robot<T, J> {
+impl<T: Scalar, const J: usize> Robot<T, J> {
     /// From its base, and each joint with the body it carries (about the body's origin).
     ///
     /// Masses and inertias are taken as they are: whether they are physical is asked where they are
@@ -282,27 +218,33 @@ impl<T: Real, const J: usize> Robot<T, J> {
         if links.len() > J {
             return Err(RobotError::TooManyJoints { found: links.len(), capacity: J });
         }
-        let idle = Joint::new(
-            BodyId::Base,
-            JointKind::Revolute,
-            Pose::identity(),
-            Vec3::from_array([T::zero(), T::zero(), T::one()]),
-        );
+        let z = Vec3::from_array([T::zero(), T::zero(), T::one()]);
+        let idle = Joint::new(BodyId::Base, JointKind::Revolute, Pose::identity(), z);
+        let nothing = Payload::default();
         let mut robot = Self {
             count: links.len(),
             joints: [idle; J],
-            matter: PerBody::filled(Payload::default()),
+            matter: PerBody::filled(nothing),
+            links: [Link::new(&idle, &nothing, &Mat3::identity(), None); J],
         };
         robot.matter.base = base;
         for (j, (joint, matter)) in links.iter().enumerate() {
-            if matches!(joint.parent, BodyId::Link(p) if p >= j) {
-                return Err(RobotError::ParentAfterChild { joint: j });
-            }
+            let R_PBp = match joint.parent {
+                BodyId::Base => Mat3::identity(),
+                BodyId::Link(p) if p < j => robot.links[p].R_LB,
+                BodyId::Link(_) => return Err(RobotError::ParentAfterChild { joint: j }),
+            };
             robot.joints[j] = *joint;
             robot.matter.links[j] = *matter;
+            let next = links.iter().find(|(next, _)| next.parent == BodyId::Link(j));
+            let next_B = next.map(|(next, _)| next.X_PB_zero.rotation * next.axis_B);
+            robot.links[j] = Link::new(joint, matter, &R_PBp, next_B);
         }
         Ok(robot)
     }
+}
+
+impl<T: Real, const J: usize> Robot<T, J> {
     /// Number of moving joints, n.
     #[inline(always)]
     pub fn joint_count(&self) -> usize {
@@ -318,10 +260,31 @@ impl<T: Real, const J: usize> Robot<T, J> {
     pub fn joint(&self, j: usize) -> &Joint<T> {
         &self.joints[within::<J>(j)]
     }
+    /// A link in the axes that its joint is simple in.
+    #[inline(always)]
+    pub fn link(&self, j: usize) -> &Link<T> {
+        &self.links[within::<J>(j)]
+    }
     /// `M_B_B` of a body about its origin.
     #[inline(always)]
     pub fn inertia(&self, body: BodyId) -> &SpatialInertia<T> {
         &self.matter[body].M_F_F
+    }
+    /// A vector in a body's axes, in the link's; the base's are its own.
+    #[inline(always)]
+    pub(crate) fn in_link(&self, body: BodyId, of_body: Vec3<T>) -> Vec3<T> {
+        match body {
+            BodyId::Base => of_body,
+            BodyId::Link(j) => self.link(j).R_LB * of_body,
+        }
+    }
+    /// Inertia of a body about its origin: a link's in the link's axes, the base's in its own.
+    #[inline(always)]
+    pub(crate) fn inertia_in_link(&self, body: BodyId) -> &SpatialInertia<T> {
+        match body {
+            BodyId::Base => &self.matter.base.M_F_F,
+            BodyId::Link(j) => &self.link(j).M_L,
+        }
     }
     /// Sum of the central inertias of the parts that are fixed together in this body (kg·m²).
     #[inline(always)]
@@ -339,6 +302,10 @@ impl<T: Real, const J: usize> Robot<T, J> {
         let mut robot = *self;
         let body = &mut robot.matter[frame.body];
         *body = body.and(&payload.seen_from(&frame.X_BF));
+        let matter = *body;
+        if let BodyId::Link(j) = frame.body {
+            robot.links[within::<J>(j)].weigh(&matter);
+        }
         robot
     }
     /// All bodies, base first.
@@ -383,6 +350,7 @@ impl<const J: usize> Robot<f64, J> {
                 base: payload(&self.matter.base),
                 links: core::array::from_fn(|j| payload(&self.matter.links[j])),
             },
+            links: self.links.map(|link| link.cast()),
         }
     }
 }

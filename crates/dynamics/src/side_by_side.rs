@@ -13,13 +13,15 @@ impl<const N: usize, const J: usize> Robot<Lanes<N>, J> {
         if !of.iter().all(same) {
             return None;
         }
-        Some(Self {
-            matter: PerBody {
-                base: Payload::side_by_side(&|i| of[i].matter.base),
-                links: SideBySide::side_by_side(&|i| of[i].matter.links),
-            },
-            ..first.cast()
-        })
+        let mut robot: Self = first.cast();
+        robot.matter = PerBody {
+            base: Payload::side_by_side(&|i| of[i].matter.base),
+            links: SideBySide::side_by_side(&|i| of[i].matter.links),
+        };
+        for j in first.joints() {
+            robot.links[j].M_L = SideBySide::side_by_side(&|i| of[i].links[j].M_L);
+        }
+        Some(robot)
     }
 }
 

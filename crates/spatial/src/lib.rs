@@ -20,6 +20,7 @@ pub mod references;
 mod rotation_vector;
 mod side_by_side;
 mod trigonometry;
+mod turn;
 mod vector;
 
 #[cfg(feature = "counted")]
@@ -34,4 +35,5 @@ pub use quaternion::Quat;
 pub use real::{Real, Scalar};
 pub use rotation_vector::{rotation_vector_rate, turned_by};
 pub use side_by_side::SideBySide;
+pub use turn::{Turn, Turned};
 pub use vector::{Vec3, vec3};

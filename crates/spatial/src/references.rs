@@ -16,6 +16,10 @@ pub enum UmetaniYoshida1989 {}
 /// manipulator approach*, International Journal of Robotics Research 9(4), 1990.
 #[derive(Debug)]
 pub enum VafaDubowsky1990 {}
+/// W. Khalil, J.-F. Kleinfinger, *A new geometric notation for open and closed-loop robots*, IEEE
+/// International Conference on Robotics and Automation, 1986.
+#[derive(Debug)]
+pub enum KhalilKleinfinger1986 {}
 /// E. Papadopoulos, S. Dubowsky, *Dynamic singularities in free-floating space manipulators*, ASME
 /// Journal of Dynamic Systems, Measurement, and Control 115, 1993.
 #[derive(Debug)]

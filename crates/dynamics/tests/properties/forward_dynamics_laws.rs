@@ -54,7 +54,8 @@ fn driven_dynamics_agrees_with_inverse_dynamics_of_what_it_finds() {
             let k = kinematics(&s.robot, &s.state);
             let found = driven_dynamics(&k, &mixed_drives(s, &s.xi), mode, &s.external);
             let inverse = inverse_dynamics(&k, &found.nudot, &s.external);
-            let scale = s.robot.bodies().fold(1.0, |m: f64, b| m.max(size(&inverse.F_B_B[b])));
+            let scale =
+                s.robot.bodies().fold(1.0, |m: f64, b| m.max(size(&inverse.F_B_B(&s.robot, b))));
             gap_at(&found.force, &inverse.force, scale)
         });
     }

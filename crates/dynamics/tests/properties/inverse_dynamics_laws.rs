@@ -53,7 +53,7 @@ fn every_joint_carries_the_momentum_rate_of_the_bodies_behind_it() {
                     gap_at(&dynamics.force.joints[j], &S.power(&F_B), scale)
                 }
             };
-            worst.max(along).max(gap_at(&dynamics.F_B_B[body], &F_B, scale))
+            worst.max(along).max(gap_at(&dynamics.F_B_B(&s.robot, body), &F_B, scale))
         })
     });
 }
