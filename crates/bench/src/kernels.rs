@@ -3,7 +3,7 @@
 use crate::Subject;
 use std::hint::black_box;
 use wrasse_dynamics::{
-    BodyId, Frame, Generalized, PerBody, base_rows, forward_dynamics, forward_dynamics_derivatives,
+    BodyId, Frame, Generalized, Outside, base_rows, forward_dynamics, forward_dynamics_derivatives,
     generalized_jacobian, inverse_dynamics, inverse_dynamics_derivatives, jacobian, kinematics,
     mass_matrix, momentum_matrix,
 };
@@ -56,7 +56,6 @@ impl<T: Real, const J: usize> Kernel for Work<'_, T, J> {
     #[inline(always)]
     fn run(self) {
         let (robot, (state, nudot)) = (&self.subject.robot, &self.subject.states[self.state]);
-        let none = PerBody::filled(SpatialForce::zero());
         let force = Generalized {
             base: SpatialForce::new(nudot.base.angular, nudot.base.linear),
             joints: nudot.joints,
@@ -64,13 +63,13 @@ impl<T: Real, const J: usize> Kernel for Work<'_, T, J> {
         let k = kinematics(robot, state);
         match self.quantity {
             Quantity::InverseDynamics => {
-                black_box(&inverse_dynamics(&k, nudot, &none).force);
+                black_box(&inverse_dynamics(&k, nudot, Outside::nothing()).force);
             }
             Quantity::MassMatrix => {
                 black_box(&mass_matrix(&k));
             }
             Quantity::ForwardDynamics => {
-                black_box(&forward_dynamics(&k, &force, &none));
+                black_box(&forward_dynamics(&k, &force, Outside::nothing()));
             }
             Quantity::MomentumMatrix => {
                 black_box(&momentum_matrix(&base_rows(&k), &state.X_NB.rotation));
@@ -81,10 +80,10 @@ impl<T: Real, const J: usize> Kernel for Work<'_, T, J> {
                 black_box(&generalized_jacobian(&J_frame, &base_rows(&k)));
             }
             Quantity::InverseDynamicsDerivatives => {
-                black_box(&inverse_dynamics_derivatives(&k, nudot, &none));
+                black_box(&inverse_dynamics_derivatives(&k, nudot, Outside::nothing()));
             }
             Quantity::ForwardDynamicsDerivatives => {
-                black_box(&forward_dynamics_derivatives(&k, &force, &none));
+                black_box(&forward_dynamics_derivatives(&k, &force, Outside::nothing()));
             }
         }
     }

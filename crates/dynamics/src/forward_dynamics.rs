@@ -42,7 +42,6 @@ struct Articulated<T> {
     R_BL: Mat3<T>,
     /// From the parent's origin (m).
     p_PL_B: Vec3<T>,
-    axis: Axis<T>,
     /// Turning rate (rad/s).
     w_NL_B: Vec3<T>,
     M: ArticulatedInertia<T>,
@@ -122,14 +121,23 @@ pub fn driven_dynamics<'a, T: Real, const J: usize>(
     outside: impl Into<Outside<'a, T, J>>,
 ) -> Dynamics<T, J> {
     let outside = outside.into();
-    let mut on_base = rigid(k.robot.inertia(BodyId::Base), k.state.V_NB_B.angular);
-    on_base.p = on_base.p - outside.base;
-    let mut bodies = PerBody::filled(on_base);
-    alone(k, &outside, &mut bodies);
+    let mut bodies = PerBody::filled(Articulated::nothing());
+    bodies.base.R_BL = Mat3::identity();
+    bodies.base.w_NL_B = k.state.V_NB_B.angular;
+    bodies.base.load(k.robot.inertia(BodyId::Base), Some(outside.base));
+    for j in k.robot.joints() {
+        place(k, j, &mut bodies);
+        let outside_L = outside.on_link(k.robot, j);
+        let body = &mut bodies.links[j];
+        let M_B = k.robot.link(j).M_L.in_axes(&body.R_BL);
+        let outside_B =
+            outside_L.map(|F| SpatialForce::new(body.R_BL * F.torque, body.R_BL * F.force));
+        body.load(&M_B, outside_B);
+    }
     for j in k.robot.joints().rev() {
         // Tip to base: what the parent feels of the tree behind the joint.
         let link = &mut bodies.links[j];
-        let (M, p) = link.felt_through(&drives[j]);
+        let (M, p) = link.felt_through(k.robot.link(j).kind, &drives[j]);
         let p_LP_B = -link.p_PL_B;
         let parent = &mut bodies[k.robot.link(j).parent];
         parent.M += M.about(p_LP_B);
@@ -144,17 +152,17 @@ pub fn driven_dynamics<'a, T: Real, const J: usize>(
     let mut A_NB_B = PerBody { base: A_base, links: [SpatialAcceleration::zero(); J] };
     for j in k.robot.joints() {
         // Base to tip: the acceleration that is left for the joint.
-        let body = &bodies.links[j];
+        let (body, axis) = (&bodies.links[j], bodies.links[j].axis(k.robot.link(j).kind));
         let A = A_NB_B[k.robot.link(j).parent].shifted_by(body.p_PL_B) + body.A_bias;
         let (qddot, tau) = match drives[j] {
             JointDrive::Effort(tau) => (body.D_inverse * (body.u - A.power(&body.U)), tau),
             JointDrive::Acceleration(qddot) => {
-                let F = body.M * (A + body.axis.motion(qddot)) + body.p;
-                (qddot, body.axis.project(&F))
+                let F = body.M * (A + axis.motion(qddot)) + body.p;
+                (qddot, axis.project(&F))
             }
         };
         (found.nudot.joints[j], found.force.joints[j]) = (qddot, tau);
-        A_NB_B.links[j] = A + body.axis.motion(qddot);
+        A_NB_B.links[j] = A + axis.motion(qddot);
     }
     found
 }
@@ -175,64 +183,76 @@ pub fn forward_dynamics<'a, T: Real, const J: usize>(
     driven_dynamics(k, &drives, BaseMode::Free, with_base).nudot
 }
 
-/// Each link by itself, before it feels what it carries.
+/// Where a link is, how it turns, and what that adds to its acceleration.
 #[inline(always)]
-fn alone<T: Real, const J: usize>(
+fn place<T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
-    outside: &Outside<'_, T, J>,
+    j: usize,
     bodies: &mut PerBody<Articulated<T>, J>,
 ) {
-    for j in k.robot.joints() {
-        let (link, seat, qdot) = (k.robot.link(j), k.seat(j), k.state.v[j]);
-        let parent = &bodies[link.parent];
-        let (R_BL, p_PL_B) = (seat.carried_by(&parent.R_BL), parent.R_BL * seat.p_PL_P);
-        let axis = Axis { along_B: R_BL.column(2), kind: link.kind };
-        let w_P = parent.w_NL_B;
-        let w_NL_B = w_P + axis.motion(qdot).angular;
-        let mut A_bias = axis.bias(w_NL_B, qdot);
-        A_bias.linear += w_P.cross(w_P.cross(p_PL_B));
-        let mut body =
-            Articulated { R_BL, p_PL_B, axis, A_bias, ..rigid(&link.M_L.in_axes(&R_BL), w_NL_B) };
-        if let Some(F) = outside.on_link(k.robot, j) {
-            body.p = body.p - SpatialForce::new(R_BL * F.torque, R_BL * F.force);
-        }
-        bodies.links[j] = body;
-    }
-}
-
-/// A body at the base's attitude that turns with `w_NL_B`; all in base axes.
-#[inline(always)]
-fn rigid<T: Real>(M_B: &SpatialInertia<T>, w_NL_B: Vec3<T>) -> Articulated<T> {
-    let torque = w_NL_B.cross(M_B.rotational * w_NL_B);
-    let force = w_NL_B.cross(w_NL_B.cross(M_B.first_moment));
-    Articulated {
-        R_BL: Mat3::identity(),
-        p_PL_B: Vec3::zero(),
-        axis: Axis { along_B: Vec3::zero(), kind: JointKind::Revolute },
-        w_NL_B,
-        M: ArticulatedInertia::from_rigid(M_B),
-        p: SpatialForce::new(torque, force),
-        A_bias: SpatialAcceleration::zero(),
-        U: SpatialForce::zero(),
-        D_inverse: T::zero(),
-        u: T::zero(),
-    }
+    let (link, seat, qdot) = (k.robot.link(j), k.seat(j), k.state.v[j]);
+    let parent = &bodies[link.parent];
+    let (R_BL, p_PL_B) = (seat.carried_by(&parent.R_BL), parent.R_BL * seat.p_PL_P);
+    let axis = Axis { along_B: R_BL.column(2), kind: link.kind };
+    let w_P = parent.w_NL_B;
+    let w_NL_B = w_P + axis.motion(qdot).angular;
+    let body = &mut bodies.links[j];
+    (body.R_BL, body.p_PL_B, body.w_NL_B) = (R_BL, p_PL_B, w_NL_B);
+    body.A_bias = axis.bias(w_NL_B, qdot);
+    body.A_bias.linear += w_P.cross(w_P.cross(p_PL_B));
 }
 
 impl<T: Real> Articulated<T> {
+    #[inline(always)]
+    fn nothing() -> Self {
+        let (none, o) = (SpatialForce::zero(), Vec3::zero());
+        Self {
+            R_BL: Mat3::zero(),
+            p_PL_B: o,
+            w_NL_B: o,
+            M: ArticulatedInertia::default(),
+            p: none,
+            A_bias: SpatialAcceleration::zero(),
+            U: none,
+            D_inverse: T::zero(),
+            u: T::zero(),
+        }
+    }
+    /// The joint's axis.
+    #[inline(always)]
+    fn axis(&self, kind: JointKind) -> Axis<T> {
+        Axis { along_B: self.R_BL.column(2), kind }
+    }
+    /// Put matter into the body, in base axes, and what pushes it.
+    #[inline(always)]
+    fn load(&mut self, M_B: &SpatialInertia<T>, outside_B: Option<SpatialForce<T>>) {
+        let w = self.w_NL_B;
+        let torque = w.cross(M_B.rotational * w);
+        let force = w.cross(w.cross(M_B.first_moment));
+        self.p = SpatialForce::new(torque, force);
+        if let Some(F) = outside_B {
+            self.p = self.p - F;
+        }
+        self.M = ArticulatedInertia::from_rigid(M_B);
+    }
     /// Inertia and bias force that the parent feels through the joint, still at this body's origin.
     #[inline(always)]
-    fn felt_through(&mut self, drive: &JointDrive<T>) -> (ArticulatedInertia<T>, SpatialForce<T>) {
+    fn felt_through(
+        &mut self,
+        kind: JointKind,
+        drive: &JointDrive<T>,
+    ) -> (ArticulatedInertia<T>, SpatialForce<T>) {
+        let axis = self.axis(kind);
         match *drive {
             JointDrive::Effort(tau) => {
-                self.U = self.axis.force(&self.M);
-                self.D_inverse = T::one() / self.axis.project(&self.U);
-                self.u = tau - self.axis.project(&self.p);
+                self.U = axis.force(&self.M);
+                self.D_inverse = T::one() / axis.project(&self.U);
+                self.u = tau - axis.project(&self.p);
                 let M = self.M.without(&self.U, self.D_inverse);
                 (M, self.p + M * self.A_bias + self.U * (self.u * self.D_inverse))
             }
             JointDrive::Acceleration(qddot) => {
-                (self.M, self.p + self.M * (self.A_bias + self.axis.motion(qddot)))
+                (self.M, self.p + self.M * (self.A_bias + axis.motion(qddot)))
             }
         }
     }

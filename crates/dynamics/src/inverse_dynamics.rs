@@ -95,9 +95,8 @@ fn own_forces<T: Real, const J: usize>(
     let mut F_L = [SpatialForce::zero(); J];
     for j in k.robot.joints() {
         let parent = &motions[k.robot.link(j).parent];
-        let motion = motion_of_link(k, j, parent, nudot.joints[j]);
-        F_L[j] = motion.force(&k.robot.link(j).M_L);
-        motions.links[j] = motion;
+        motions.links[j] = motion_of_link(k, j, parent, nudot.joints[j]);
+        F_L[j] = motions.links[j].force(&k.robot.link(j).M_L);
     }
     (motions.base.force(k.robot.inertia(BodyId::Base)), F_L)
 }

@@ -3,7 +3,7 @@
 use crate::complaint::{ONLY, Refused, WrasseStatus, each, finite, refused};
 use core::ffi::CStr;
 use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, Payload, Robot, RobotError};
-use wrasse_spatial::{Mat3, Pose, Real, Sym3, Vec3, vec3};
+use wrasse_spatial::{Mat3, Pose, Real, Scalar, Sym3, Vec3, vec3};
 
 /// Most links that a robot can have.
 pub const WRASSE_JOINTS: usize = 14;
@@ -93,7 +93,7 @@ pub fn frame_from_table<T: Real>(frame: &WrasseFrame) -> Frame<T> {
 ///
 /// # Errors
 /// If there are more than `J` links, or a parent does not come before its child.
-pub fn robot_from_tables<T: Real, const J: usize>(
+pub fn robot_from_tables<T: Scalar, const J: usize>(
     base: &WrasseBody,
     links: &[WrasseLink],
 ) -> Result<Robot<T, J>, RobotError> {

@@ -11,7 +11,7 @@ use wrasse_flight::{
 };
 use wrasse_flight_c::{WrasseBody, WrasseFrame, WrasseLink, frame_from_table, robot_from_tables};
 use wrasse_hardware::JointLimits;
-use wrasse_spatial::{Pose, Quat, Real, SpatialVelocity, Vec3};
+use wrasse_spatial::{Pose, Quat, Real, Scalar, SpatialVelocity, Vec3};
 
 /// How many states each subject is run on.
 pub const STATES: u32 = 1000;
@@ -38,18 +38,18 @@ pub struct Start<T, const J: usize> {
 }
 
 /// One arm of seven joints; nothing if its table is no robot.
-pub fn one_arm<T: Real>(law: ArmLaw) -> Option<Subject<T, 7>> {
+pub fn one_arm<T: Scalar>(law: ArmLaw) -> Option<Subject<T, 7>> {
     use atlas_class::{BASE, LINKS, TOOL};
     subject(&BASE, &LINKS, &TOOL, law)
 }
 
 /// Two arms of seven joints.
-pub fn two_arms<T: Real>(law: ArmLaw) -> Option<Subject<T, 14>> {
+pub fn two_arms<T: Scalar>(law: ArmLaw) -> Option<Subject<T, 14>> {
     use atlas_class_two_arms::{BASE, LINKS, TOOL};
     subject(&BASE, &LINKS, &TOOL, law)
 }
 
-fn subject<T: Real, const J: usize>(
+fn subject<T: Scalar, const J: usize>(
     base: &WrasseBody,
     links: &[WrasseLink],
     tool: &WrasseFrame,

@@ -3,10 +3,10 @@
 use crate::period::{STATES, Subject, numbers, one_arm, two_arms};
 use crate::report::{Machine, decimal, hexadecimal};
 use wrasse_flight::ArmLaw;
-use wrasse_spatial::Real;
+use wrasse_spatial::Scalar;
 
 /// A number whose bits can be told.
-pub trait Number: Real {
+pub trait Number: Scalar {
     /// Its bits, in the low end of the word.
     fn bits(self) -> u64;
 }

@@ -5,8 +5,8 @@
 
 use std::hint::black_box;
 use wrasse_dynamics::{
-    Generalized, PerBody, forward_dynamics, generalized_jacobian, inverse_dynamics, jacobian,
-    kinematics, mass_matrix, momentum_matrix,
+    Generalized, Outside, base_rows, forward_dynamics, generalized_jacobian, inverse_dynamics,
+    jacobian, kinematics, mass_matrix, momentum_matrix,
 };
 use wrasse_flight::ArmLaw;
 use wrasse_golden_periods::{STATES, Subject, one_arm, two_arms};
@@ -31,18 +31,21 @@ fn kernels<const J: usize>(subject: &Subject<f64, J>) {
     let tool = black_box(&subject.setup.assignment.tool);
     let nudot = Generalized { base: SpatialVelocity::zero(), joints: [0.1; J] };
     let force = Generalized { base: SpatialForce::zero(), joints: [0.5; J] };
-    let external = PerBody::filled(SpatialForce::zero());
     count("kinematics", J, || kinematics(robot, state));
-    count("inverse_dynamics", J, || inverse_dynamics(&kinematics(robot, state), &nudot, &external));
-    count("forward_dynamics", J, || forward_dynamics(&kinematics(robot, state), &force, &external));
+    count("inverse_dynamics", J, || {
+        inverse_dynamics(&kinematics(robot, state), &nudot, Outside::nothing())
+    });
+    count("forward_dynamics", J, || {
+        forward_dynamics(&kinematics(robot, state), &force, Outside::nothing())
+    });
     count("mass_matrix", J, || mass_matrix(&kinematics(robot, state)));
     count("momentum_matrix", J, || {
-        momentum_matrix(&mass_matrix(&kinematics(robot, state)), &state.X_NB.rotation)
+        momentum_matrix(&base_rows(&kinematics(robot, state)), &state.X_NB.rotation)
     });
     count("jacobian", J, || jacobian(&kinematics(robot, state), tool));
     count("generalized_jacobian", J, || {
         let k = kinematics(robot, state);
-        generalized_jacobian(&jacobian(&k, tool), &mass_matrix(&k))
+        generalized_jacobian(&jacobian(&k, tool), &base_rows(&k))
     });
 }
 
