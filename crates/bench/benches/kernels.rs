@@ -1,11 +1,12 @@
 //! Times of the kernels: `cargo xtask bench` runs this and makes a page of it.
 
-use criterion::{Criterion, criterion_group, criterion_main};
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::Duration;
-use wrasse_bench::{KERNELS, STATES, Subject, Work, subject, widened};
-use wrasse_lanes::{Kernel, Level};
-use wrasse_spatial::{Lanes, Real};
+use wrasse_bench::{Built, Call, DERIVATIVES, KERNELS, STATES, Subject, subject, widened};
+use wrasse_lanes::{Level, OnAnyLevel};
+use wrasse_spatial::{Instructions, Lanes, Real, Work};
 use wrasse_world::{BaseAttitude, Equipment, Stepper, World, WorldSetup};
 
 /// Samples as the peers take them: fifteen batches.
@@ -19,32 +20,57 @@ fn settings() -> Criterion {
 
 /// Every kernel alone, alone on AVX2, and in lanes on the widest level there is.
 fn vehicle<const J: usize>(criterion: &mut Criterion, name: &str) {
-    let one: Subject<f64, J> = subject(name).expect("a golden vehicle");
-    let many = widened(&one);
+    let subject: &Subject<f64, J> = &subject(name).expect("a golden vehicle");
     let mut group = criterion.benchmark_group(name);
     for (kernel, quantity) in KERNELS {
-        for (how, level) in [("single", Level::Base), ("single_avx2", Level::Avx2)] {
-            let mut turn = 0;
-            group.bench_function(format!("{kernel}.{how}"), |bencher| {
-                bencher.iter(|| {
-                    turn = (turn + 1) % STATES;
-                    level.run(Work { quantity, subject: &one, state: turn });
-                });
-            });
-        }
-        let (mut turn, level) = (0, Level::best());
-        group.bench_function(format!("{kernel}.lanes"), |bencher| {
-            bencher.iter(|| {
-                turn = (turn + 1) % STATES;
-                level.run(Work { quantity, subject: &many, state: turn });
-            });
-        });
+        alone(&mut group, kernel, |state| Call { quantity, subject, state });
     }
-    let mut world = coasting(&one);
+    for (kernel, quantity) in DERIVATIVES {
+        alone(&mut group, kernel, |state| Call { quantity, subject, state });
+    }
+    Level::best().choose(InLanes { group: &mut group, subject });
+    let mut world = coasting(subject);
     group.bench_function("coasting_step.single", |bencher| {
         bencher.iter(|| black_box(&mut world).advance(STEP).is_ok());
     });
     group.finish();
+}
+
+type Group<'a> = BenchmarkGroup<'a, WallTime>;
+
+/// A kernel for single numbers, by the calls for its states.
+fn alone<W: Work>(group: &mut Group<'_>, kernel: &str, call: impl Fn(usize) -> W) {
+    for (how, level) in [("single", Level::Base), ("single_avx2", Level::Avx2)] {
+        let mut turn = 0;
+        group.bench_function(format!("{kernel}.{how}"), |bencher| {
+            bencher.iter(|| {
+                turn = (turn + 1) % STATES;
+                level.choose(Built(call(turn)));
+            });
+        });
+    }
+}
+
+/// Kernels for eight states at a time.
+struct InLanes<'a, 'g, const J: usize> {
+    group: &'a mut Group<'g>,
+    subject: &'a Subject<f64, J>,
+}
+
+impl<const J: usize> OnAnyLevel for InLanes<'_, '_, J> {
+    type Out = ();
+    fn with<I: Instructions>(self) {
+        let subject: &Subject<Lanes<8, I>, J> = &widened(self.subject);
+        for (kernel, quantity) in KERNELS {
+            let mut turn = 0;
+            self.group.bench_function(format!("{kernel}.lanes"), |bencher| {
+                bencher.iter(|| {
+                    turn = (turn + 1) % STATES;
+                    Lanes::<8, I>::apart(Call { quantity, subject, state: turn });
+                });
+            });
+        }
+    }
 }
 
 /// Length of a coasting step (s), as for the peer.
@@ -66,9 +92,9 @@ fn coasting<const J: usize>(of: &Subject<f64, J>) -> World<J> {
 }
 
 /// Products and sums that wait for nothing: what a core can do at most, without fusing them.
-struct Peak([Lanes<8>; 12]);
+struct Peak<I: Instructions>([Lanes<8, I>; 12]);
 
-impl Kernel for Peak {
+impl<I: Instructions> Work for Peak<I> {
     type Out = ();
     #[inline(always)]
     fn run(self) {
@@ -83,16 +109,24 @@ impl Kernel for Peak {
 }
 
 /// 100 × 12 × 2 × 8 operations.
-fn peak(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("peak");
-    group.bench_function("lanes_19200_operations", |bencher| {
-        bencher.iter(|| Level::best().run(Peak([black_box(Lanes::from_f64(1.0)); 12])));
-    });
-    group.finish();
+struct PeakOf<'a>(&'a mut Criterion);
+
+impl OnAnyLevel for PeakOf<'_> {
+    type Out = ();
+    fn with<I: Instructions>(self) {
+        let mut group = self.0.benchmark_group("peak");
+        group.bench_function("lanes_19200_operations", |bencher| {
+            bencher.iter(|| {
+                let start = [black_box(Lanes::<8, I>::from_f64(1.0)); 12];
+                Lanes::<8, I>::apart(Peak(start));
+            });
+        });
+        group.finish();
+    }
 }
 
 fn all(criterion: &mut Criterion) {
-    peak(criterion);
+    Level::best().choose(PeakOf(criterion));
     vehicle::<7>(criterion, "one_arm");
     vehicle::<13>(criterion, "two_arms");
 }

@@ -2,10 +2,9 @@
 //! kernel, operations.
 #![allow(clippy::print_stdout, reason = "an example talks to its caller")]
 
-use wrasse_bench::{KERNELS, Subject, Work, subject};
+use wrasse_bench::{Call, DERIVATIVES, KERNELS, Subject, subject};
 use wrasse_dynamics::{Generalized, State};
-use wrasse_lanes::Kernel;
-use wrasse_spatial::{Counted, Pose, Real, SpatialVelocity};
+use wrasse_spatial::{Counted, Pose, Real, SpatialVelocity, Work};
 
 fn count<const J: usize>(name: &str) -> Result<(), String> {
     let one: Subject<f64, J> = subject(name)?;
@@ -21,14 +20,21 @@ fn count<const J: usize>(name: &str) -> Result<(), String> {
         (state, Generalized { base, joints: nudot.joints.map(c) })
     });
     let counted = Subject { robot: one.robot.cast(), states: states.collect() };
+    let (subject, state) = (&counted, 0);
     for (kernel, quantity) in KERNELS {
-        let work = Work { quantity, subject: &counted, state: 0 };
-        let (operations, ()) = Counted::operations(|| work.run());
-        // Each joint must be turned, moved and asked for its part, and so must the base.
-        assert!(operations > 50 * (J + 1), "{kernel} does too little to be true: {operations}");
-        println!("{name} {kernel} {operations}");
+        tell::<J>(name, kernel, Call { quantity, subject, state });
+    }
+    for (kernel, quantity) in DERIVATIVES {
+        tell::<J>(name, kernel, Call { quantity, subject, state });
     }
     Ok(())
+}
+
+fn tell<const J: usize>(name: &str, kernel: &str, call: impl Work<Out = ()>) {
+    let (operations, ()) = Counted::operations(|| call.run());
+    // Each joint must be turned, moved and asked for its part, and so must the base.
+    assert!(operations > 50 * (J + 1), "{kernel} does too little to be true: {operations}");
+    println!("{name} {kernel} {operations}");
 }
 
 fn main() -> Result<(), String> {

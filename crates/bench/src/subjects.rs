@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use wrasse_dynamics::{BodyId, Generalized, GeneralizedVelocity, Payload, Robot, State};
-use wrasse_spatial::{Lanes, Pose, Quat, Real, SpatialVelocity, vec3};
+use wrasse_spatial::{Instructions, Lanes, Pose, Quat, Real, SpatialVelocity, vec3};
 use wrasse_world::Noise;
 
 /// States of each subject, taken in turn.
@@ -57,14 +57,14 @@ fn state<const J: usize>(u: &mut impl FnMut() -> f64) -> Moment<f64, J> {
 }
 
 /// The same with eight consecutive states side by side.
-pub fn widened<const J: usize>(one: &Subject<f64, J>) -> Subject<Lanes<8>, J> {
+pub fn widened<I: Instructions, const J: usize>(one: &Subject<f64, J>) -> Subject<Lanes<8, I>, J> {
     let states = (0..STATES).map(|first| {
         let many = |pick: &dyn Fn(&Moment<f64, J>) -> f64| {
-            Lanes::<8>::from_fn(|lane| pick(&one.states[(first + lane) % STATES]))
+            Lanes::<8, I>::from_fn(|lane| pick(&one.states[(first + lane) % STATES]))
         };
         let twist = std::array::from_fn(|i| many(&|s| s.0.V_NB_B.to_array()[i]));
         let acceleration = std::array::from_fn(|i| many(&|s| s.1.base.to_array()[i]));
-        let mut state = State::<Lanes<8>, J> {
+        let mut state = State::<Lanes<8, I>, J> {
             V_NB_B: SpatialVelocity::from_array(twist),
             q: std::array::from_fn(|j| many(&|s| s.0.q[j])),
             v: std::array::from_fn(|j| many(&|s| s.0.v[j])),

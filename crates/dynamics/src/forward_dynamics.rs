@@ -5,7 +5,7 @@ use crate::{
     PerBody,
 };
 use wrasse_spatial::{
-    ArticulatedInertia, Mat3, Real, SpatialAcceleration, SpatialForce, SpatialInertia, Vec3,
+    ArticulatedInertia, Mat3, Real, SpatialAcceleration, SpatialForce, SpatialInertia, Vec3, Work,
 };
 
 /// What is given of a joint; the other is found.
@@ -113,62 +113,90 @@ impl<T: Real> Axis<T> {
 /// joints that follow, ch. 9.4 for the floating base. The held attitude is the same elimination
 /// with the base's angular acceleration given.
 #[doc(alias = "aba")]
-#[inline(always)]
 pub fn driven_dynamics<'a, T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     drives: &[JointDrive<T>; J],
     base: BaseMode,
     outside: impl Into<Outside<'a, T, J>>,
 ) -> Dynamics<T, J> {
-    let outside = outside.into();
-    let mut bodies = PerBody::filled(Articulated::nothing());
-    bodies.base.R_BL = Mat3::identity();
-    bodies.base.w_NL_B = k.state.V_NB_B.angular;
-    bodies.base.load(k.robot.inertia(BodyId::Base), Some(outside.base));
-    for j in k.robot.joints() {
-        place(k, j, &mut bodies);
-        let outside_L = outside.on_link(k.robot, j);
-        let body = &mut bodies.links[j];
-        let M_B = k.robot.link(j).M_L.in_axes(&body.R_BL);
-        let outside_B =
-            outside_L.map(|F| SpatialForce::new(body.R_BL * F.torque, body.R_BL * F.force));
-        body.load(&M_B, outside_B);
+    T::apart(Driven { k, drives, base, outside: outside.into() })
+}
+
+/// Accelerations and forces of what is driven, as a piece of work.
+struct Driven<'a, T, const J: usize> {
+    k: &'a Kinematics<'a, T, J>,
+    drives: &'a [JointDrive<T>; J],
+    base: BaseMode,
+    outside: Outside<'a, T, J>,
+}
+
+impl<T: Real, const J: usize> Work for Driven<'_, T, J> {
+    type Out = Dynamics<T, J>;
+    #[inline(always)]
+    fn run(self) -> Self::Out {
+        let mut bodies = PerBody::filled(Articulated::nothing());
+        self.load(&mut bodies);
+        for j in self.k.robot.joints().rev() {
+            // Tip to base: what the parent feels of the tree behind the joint.
+            let (link, body) = (self.k.robot.link(j), &mut bodies.links[j]);
+            let (M, p) = body.felt_through(link.kind, &self.drives[j]);
+            let p_LP_B = -body.p_PL_B;
+            let parent = &mut bodies[link.parent];
+            parent.M += M.about(p_LP_B);
+            parent.p += p.about(p_LP_B);
+        }
+        self.accelerate(&bodies)
     }
-    for j in k.robot.joints().rev() {
-        // Tip to base: what the parent feels of the tree behind the joint.
-        let link = &mut bodies.links[j];
-        let (M, p) = link.felt_through(k.robot.link(j).kind, &drives[j]);
-        let p_LP_B = -link.p_PL_B;
-        let parent = &mut bodies[k.robot.link(j).parent];
-        parent.M += M.about(p_LP_B);
-        parent.p += p.about(p_LP_B);
+}
+
+impl<T: Real, const J: usize> Driven<'_, T, J> {
+    /// Each body by itself, before it feels what it carries.
+    #[inline(always)]
+    fn load(&self, bodies: &mut PerBody<Articulated<T>, J>) {
+        let Self { k, outside, .. } = self;
+        bodies.base.R_BL = Mat3::identity();
+        bodies.base.w_NL_B = k.state.V_NB_B.angular;
+        bodies.base.load(k.robot.inertia(BodyId::Base), Some(outside.base));
+        for j in k.robot.joints() {
+            place(k, j, bodies);
+            let body = &mut bodies.links[j];
+            let (R_BL, M_L) = (body.R_BL, &k.robot.link(j).M_L);
+            let outside_B = outside
+                .on_link(k.robot, j)
+                .map(|F| SpatialForce::new(R_BL * F.torque, R_BL * F.force));
+            body.load(&M_L.in_axes(&R_BL), outside_B);
+        }
     }
-    let (A_base, holding) = solve_base(&bodies.base, base);
-    let mut found = Dynamics { nudot: Generalized::default(), force: Generalized::default() };
-    let V_NB_B = &k.state.V_NB_B;
-    let turned = V_NB_B.angular.cross(V_NB_B.linear);
-    found.nudot.base = SpatialAcceleration::new(A_base.angular, A_base.linear - turned);
-    found.force.base = holding;
-    let mut A_NB_B = PerBody { base: A_base, links: [SpatialAcceleration::zero(); J] };
-    for j in k.robot.joints() {
-        // Base to tip: the acceleration that is left for the joint.
-        let (body, axis) = (&bodies.links[j], bodies.links[j].axis(k.robot.link(j).kind));
-        let A = A_NB_B[k.robot.link(j).parent].shifted_by(body.p_PL_B) + body.A_bias;
-        let (qddot, tau) = match drives[j] {
-            JointDrive::Effort(tau) => (body.D_inverse * (body.u - A.power(&body.U)), tau),
-            JointDrive::Acceleration(qddot) => {
-                let F = body.M * (A + axis.motion(qddot)) + body.p;
-                (qddot, axis.project(&F))
-            }
-        };
-        (found.nudot.joints[j], found.force.joints[j]) = (qddot, tau);
-        A_NB_B.links[j] = A + axis.motion(qddot);
+    /// Base to tip: the acceleration that is left for each joint.
+    #[inline(always)]
+    fn accelerate(&self, bodies: &PerBody<Articulated<T>, J>) -> Dynamics<T, J> {
+        let k = self.k;
+        let (A_base, holding) = solve_base(&bodies.base, self.base);
+        let mut found = Dynamics { nudot: Generalized::default(), force: Generalized::default() };
+        let V_NB_B = &k.state.V_NB_B;
+        let turned = V_NB_B.angular.cross(V_NB_B.linear);
+        found.nudot.base = SpatialAcceleration::new(A_base.angular, A_base.linear - turned);
+        found.force.base = holding;
+        let mut A_NB_B = PerBody { base: A_base, links: [SpatialAcceleration::zero(); J] };
+        for j in k.robot.joints() {
+            let (link, body) = (k.robot.link(j), &bodies.links[j]);
+            let axis = body.axis(link.kind);
+            let A = A_NB_B[link.parent].shifted_by(body.p_PL_B) + body.A_bias;
+            let (qddot, tau) = match self.drives[j] {
+                JointDrive::Effort(tau) => (body.D_inverse * (body.u - A.power(&body.U)), tau),
+                JointDrive::Acceleration(qddot) => {
+                    let F = body.M * (A + axis.motion(qddot)) + body.p;
+                    (qddot, axis.project(&F))
+                }
+            };
+            (found.nudot.joints[j], found.force.joints[j]) = (qddot, tau);
+            A_NB_B.links[j] = A + axis.motion(qddot);
+        }
+        found
     }
-    found
 }
 
 /// Accelerations that the given forces cause: `M⁻¹ (force - c + Σ Jᵀ F_ext)`.
-#[inline(always)]
 pub fn forward_dynamics<'a, T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     force: &GeneralizedForce<T, J>,

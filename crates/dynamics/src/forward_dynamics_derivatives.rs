@@ -39,7 +39,6 @@ pub struct ForwardDynamicsDerivatives<T, const J: usize> {
 /// # Source
 /// J. Carpentier, N. Mansard, *Analytical derivatives of rigid body dynamics algorithms*, RSS 2018.
 #[doc(alias = "aba derivatives")]
-#[inline(always)]
 pub fn forward_dynamics_derivatives<'a, T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     force: &GeneralizedForce<T, J>,

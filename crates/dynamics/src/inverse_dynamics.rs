@@ -4,7 +4,7 @@ use crate::{
     BodyId, Generalized, GeneralizedForce, GeneralizedVelocity, JointKind, Kinematics, Outside,
     PerBody, Robot,
 };
-use wrasse_spatial::{Mat3, Real, SpatialForce, SpatialInertia, Vec3, vec3};
+use wrasse_spatial::{Mat3, Real, SpatialForce, SpatialInertia, Vec3, Work, vec3};
 
 /// Forces of a motion: what drives it, and what each joint carries.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,34 +50,47 @@ struct Motion<T> {
 /// # Source
 /// [`LuhWalkerPaul1980`](wrasse_spatial::references::LuhWalkerPaul1980), over a tree on a free base.
 #[doc(alias = "rnea")]
-#[inline(always)]
 pub fn inverse_dynamics<'a, T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     nudot: &GeneralizedVelocity<T, J>,
     outside: impl Into<Outside<'a, T, J>>,
 ) -> InverseDynamics<T, J> {
-    let outside = outside.into();
-    let (mut base, mut F_L) = own_forces(k, nudot);
-    base = base - outside.base;
-    let mut joints = [T::zero(); J];
-    for j in k.robot.joints().rev() {
-        // Tip to base: the motor feels the part along its joint, the parent all of it.
-        let link = k.robot.link(j);
-        if let Some(F) = outside.on_link(k.robot, j) {
-            F_L[j] = F_L[j] - F;
+    T::apart(Taken { k, nudot, outside: outside.into() })
+}
+
+/// The forces that a motion takes, as a piece of work.
+struct Taken<'a, T, const J: usize> {
+    k: &'a Kinematics<'a, T, J>,
+    nudot: &'a GeneralizedVelocity<T, J>,
+    outside: Outside<'a, T, J>,
+}
+
+impl<T: Real, const J: usize> Work for Taken<'_, T, J> {
+    type Out = InverseDynamics<T, J>;
+    #[inline(always)]
+    fn run(self) -> Self::Out {
+        let Self { k, nudot, outside } = self;
+        let (mut base, mut F_L) = own_forces(k, nudot);
+        base = base - outside.base;
+        let mut joints = [T::zero(); J];
+        for j in k.robot.joints().rev() {
+            // Tip to base: the motor feels the part along its joint, the parent all of it.
+            let link = k.robot.link(j);
+            if let Some(F) = outside.on_link(k.robot, j) {
+                F_L[j] = F_L[j] - F;
+            }
+            joints[j] = link.project(&F_L[j]);
+            let onto_parent = k.seat(j).force_to_parent(&F_L[j]);
+            match link.parent {
+                BodyId::Base => base += onto_parent,
+                BodyId::Link(p) => F_L[p.min(j)] += onto_parent,
+            }
         }
-        joints[j] = link.project(&F_L[j]);
-        let onto_parent = k.seat(j).force_to_parent(&F_L[j]);
-        match link.parent {
-            BodyId::Base => base += onto_parent,
-            BodyId::Link(p) => F_L[p.min(j)] += onto_parent,
-        }
+        InverseDynamics { force: Generalized { base, joints }, F_L }
     }
-    InverseDynamics { force: Generalized { base, joints }, F_L }
 }
 
 /// `c(q, ν)`: the forces that a motion without generalized acceleration takes.
-#[inline(always)]
 pub fn bias_force<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> GeneralizedForce<T, J> {
     inverse_dynamics(k, &Generalized::default(), Outside::nothing()).force
 }

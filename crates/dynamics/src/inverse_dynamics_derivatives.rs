@@ -357,7 +357,6 @@ impl<T: Real, const J: usize> Bodies<T, J> {
 /// S. Singh, R. Russell, P. Wensing, *Efficient analytical derivatives of rigid-body dynamics using
 /// spatial vector algebra*, IEEE Robotics and Automation Letters 7(2), 2022.
 #[doc(alias = "rnea derivatives")]
-#[inline(always)]
 pub fn inverse_dynamics_derivatives<'a, T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     nudot: &GeneralizedVelocity<T, J>,

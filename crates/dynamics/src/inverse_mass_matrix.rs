@@ -24,7 +24,6 @@ pub struct InverseMassMatrix<T, const J: usize> {
 ///
 /// # Source
 /// G. Golub, C. Van Loan, *Matrix Computations*, 4th ed., Johns Hopkins, 2013, ch. 4.1 (`L D Lᵀ`).
-#[inline(always)]
 pub fn inverse_mass_matrix<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     M: &MassMatrix<T, J>,

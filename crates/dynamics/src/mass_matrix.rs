@@ -3,7 +3,7 @@
 use crate::robot::within;
 use crate::{BodyId, Kinematics, PerBody};
 use core::ops::Deref;
-use wrasse_spatial::{Pose, Real, SpatialForce, SpatialInertia};
+use wrasse_spatial::{Pose, Real, SpatialForce, SpatialInertia, Work};
 
 /// The base's rows of `M(q)`: momentum of the whole system about Bo, in base axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,40 +41,66 @@ impl<T, const J: usize> Deref for MassMatrix<T, J> {
 /// [`Featherstone2008`](wrasse_spatial::references::Featherstone2008) ch. 6, table 6.2; ch. 9.4 for
 /// the floating base.
 #[doc(alias = "crba")]
-#[inline(always)]
 pub fn mass_matrix<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> MassMatrix<T, J> {
-    let carried = composites(k);
-    let mut M_bj = [SpatialForce::zero(); J];
-    let mut M_jj = [[T::zero(); J]; J];
-    for j in k.robot.joints() {
-        let link = k.robot.link(j);
-        let mut F = link.momentum(&carried.links[j]);
-        M_jj[j][j] = link.project(&F);
-        let (mut seat, mut parent) = (k.seat(j), link.parent);
-        // The same momentum, as each link on the way to the base feels it.
-        while let BodyId::Link(p) = parent {
-            let p = within::<J>(p);
-            F = seat.force_to_parent(&F);
-            let coupling = k.robot.link(p).project(&F);
-            M_jj[j][p] = coupling;
-            M_jj[p][j] = coupling;
-            (seat, parent) = (k.seat(p), k.robot.link(p).parent);
-        }
-        M_bj[j] = seat.force_to_parent(&F);
-    }
-    let base = BaseRows { count: k.robot.joint_count(), M_bb: carried.base, M_bj };
-    MassMatrix { base, M_jj }
+    T::apart(AllRows { k })
 }
 
 /// The base's rows alone: all that momentum needs.
-#[inline(always)]
 pub fn base_rows<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> BaseRows<T, J> {
-    let (carried, X_BL) = (composites(k), k.link_poses(&Pose::identity()));
-    let mut M_bj = [SpatialForce::zero(); J];
-    for j in k.robot.joints() {
-        M_bj[j] = X_BL.links[j].force_to_parent(&k.robot.link(j).momentum(&carried.links[j]));
+    T::apart(RowsOfBase { k })
+}
+
+/// The mass matrix as a piece of work.
+struct AllRows<'a, T, const J: usize> {
+    k: &'a Kinematics<'a, T, J>,
+}
+
+impl<T: Real, const J: usize> Work for AllRows<'_, T, J> {
+    type Out = MassMatrix<T, J>;
+    #[inline(always)]
+    fn run(self) -> Self::Out {
+        let k = self.k;
+        let carried = composites(k);
+        let mut M_bj = [SpatialForce::zero(); J];
+        let mut M_jj = [[T::zero(); J]; J];
+        for j in k.robot.joints() {
+            let link = k.robot.link(j);
+            let mut F = link.momentum(&carried.links[j]);
+            M_jj[j][j] = link.project(&F);
+            let (mut seat, mut parent) = (k.seat(j), link.parent);
+            // The same momentum, as each link on the way to the base feels it.
+            while let BodyId::Link(p) = parent {
+                let p = within::<J>(p);
+                F = seat.force_to_parent(&F);
+                let coupling = k.robot.link(p).project(&F);
+                M_jj[j][p] = coupling;
+                M_jj[p][j] = coupling;
+                (seat, parent) = (k.seat(p), k.robot.link(p).parent);
+            }
+            M_bj[j] = seat.force_to_parent(&F);
+        }
+        let base = BaseRows { count: k.robot.joint_count(), M_bb: carried.base, M_bj };
+        MassMatrix { base, M_jj }
     }
-    BaseRows { count: k.robot.joint_count(), M_bb: carried.base, M_bj }
+}
+
+/// The base's rows as a piece of work.
+struct RowsOfBase<'a, T, const J: usize> {
+    k: &'a Kinematics<'a, T, J>,
+}
+
+impl<T: Real, const J: usize> Work for RowsOfBase<'_, T, J> {
+    type Out = BaseRows<T, J>;
+    #[inline(always)]
+    fn run(self) -> Self::Out {
+        let k = self.k;
+        let (carried, X_BL) = (composites(k), k.link_poses(&Pose::identity()));
+        let mut M_bj = [SpatialForce::zero(); J];
+        for j in k.robot.joints() {
+            M_bj[j] = X_BL.links[j].force_to_parent(&k.robot.link(j).momentum(&carried.links[j]));
+        }
+        BaseRows { count: k.robot.joint_count(), M_bb: carried.base, M_bj }
+    }
 }
 
 /// What each joint carries, joints behind it locked, in the link's axes; the base's is all.

@@ -1,9 +1,9 @@
 //! Robots of one build and their states, side by side in lanes.
 
 use crate::{Dynamics, Generalized, Payload, PerBody, Robot, State};
-use wrasse_spatial::{Lanes, SideBySide};
+use wrasse_spatial::{Instructions, Lanes, SideBySide};
 
-impl<const N: usize, const J: usize> Robot<Lanes<N>, J> {
+impl<I: Instructions, const N: usize, const J: usize> Robot<Lanes<N, I>, J> {
     /// Robots of the same tree and the same joints, whatever they weigh; `None` if they are not.
     pub fn side_by_side(of: &[Robot<f64, J>; N]) -> Option<Self> {
         let first = of.first()?;
@@ -25,7 +25,7 @@ impl<const N: usize, const J: usize> Robot<Lanes<N>, J> {
     }
 }
 
-impl<const N: usize> SideBySide<N> for Payload<Lanes<N>> {
+impl<I: Instructions, const N: usize> SideBySide<N> for Payload<Lanes<N, I>> {
     type Alone = Payload<f64>;
     fn side_by_side(of: &impl Fn(usize) -> Payload<f64>) -> Self {
         Self {
@@ -38,7 +38,7 @@ impl<const N: usize> SideBySide<N> for Payload<Lanes<N>> {
     }
 }
 
-impl<const N: usize, const J: usize> SideBySide<N> for State<Lanes<N>, J> {
+impl<I: Instructions, const N: usize, const J: usize> SideBySide<N> for State<Lanes<N, I>, J> {
     type Alone = State<f64, J>;
     #[inline(always)]
     fn side_by_side(of: &impl Fn(usize) -> State<f64, J>) -> Self {
@@ -60,7 +60,7 @@ impl<const N: usize, const J: usize> SideBySide<N> for State<Lanes<N>, J> {
     }
 }
 
-impl<const N: usize, const J: usize> Dynamics<Lanes<N>, J> {
+impl<I: Instructions, const N: usize, const J: usize> Dynamics<Lanes<N, I>, J> {
     /// That of one lane.
     #[inline(always)]
     #[must_use]

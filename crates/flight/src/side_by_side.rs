@@ -8,11 +8,10 @@ use crate::law::Tuning;
 use crate::navigation::NavigationSetup;
 use crate::resolved_motion::{Assignment, Belief, JointUse, Resolved, ResolvedMotion};
 use crate::trajectory::{JointSetPoint, ToolMotion};
-use core::array;
 use wrasse_dynamics::{Frame, State};
-use wrasse_hardware::{JointLimits, SetPoint};
+use wrasse_hardware::JointLimits;
 use wrasse_spatial::{
-    Lanes, Mat3, Pose, Quat, Real, SideBySide, SpatialForce, SpatialVelocity, Vec3, vec3,
+    Instructions, Lanes, Pose, Quat, Real, SideBySide, SpatialForce, SpatialVelocity,
 };
 
 impl<const J: usize> Setup<f64, J> {
@@ -52,66 +51,17 @@ impl<const J: usize> Setup<f64, J> {
     }
 }
 
-/// Numbers of `N` vehicles, one of each in a lane.
-trait Gather<const N: usize>: Copy {
-    type Lanes;
-    fn gather(from: &[Self; N]) -> Self::Lanes;
-}
-
-impl<const N: usize> Gather<N> for f64 {
-    type Lanes = Lanes<N>;
-    #[inline(always)]
-    fn gather(from: &[Self; N]) -> Lanes<N> {
-        Lanes(*from)
-    }
-}
-impl<const N: usize, const J: usize> Gather<N> for [f64; J] {
-    type Lanes = [Lanes<N>; J];
-    #[inline(always)]
-    fn gather(from: &[Self; N]) -> Self::Lanes {
-        array::from_fn(|j| Lanes(array::from_fn(|i| from[i][j])))
-    }
-}
-impl<const N: usize> Gather<N> for Vec3<f64> {
-    type Lanes = Vec3<Lanes<N>>;
-    #[inline(always)]
-    fn gather(from: &[Self; N]) -> Self::Lanes {
-        Vec3::from_array(<[f64; 3]>::gather(&from.map(Vec3::to_array)))
-    }
-}
-impl<const N: usize> Gather<N> for SpatialVelocity<f64> {
-    type Lanes = SpatialVelocity<Lanes<N>>;
-    #[inline(always)]
-    fn gather(from: &[Self; N]) -> Self::Lanes {
-        SpatialVelocity::from_array(<[f64; 6]>::gather(&from.map(Self::to_array)))
-    }
-}
-impl<const N: usize> Gather<N> for Pose<f64> {
-    type Lanes = Pose<Lanes<N>>;
-    #[inline(always)]
-    fn gather(from: &[Self; N]) -> Self::Lanes {
-        let row = |k: usize| Vec3::gather(&from.map(|X| X.rotation.rows[k]));
-        let rotation = Mat3::from_rows(row(0), row(1), row(2));
-        Pose::new(rotation, Vec3::gather(&from.map(|X| X.translation)))
-    }
-}
-
 /// States of `N` vehicles, one in each lane.
-pub fn states_side_by_side<const N: usize, const J: usize>(
+pub fn states_side_by_side<I: Instructions, const N: usize, const J: usize>(
     from: &[State<f64, J>; N],
-) -> State<Lanes<N>, J> {
-    State {
-        X_NB: Pose::gather(&array::from_fn(|i| from[i].X_NB)),
-        V_NB_B: SpatialVelocity::gather(&array::from_fn(|i| from[i].V_NB_B)),
-        q: <[f64; J]>::gather(&array::from_fn(|i| from[i].q)),
-        v: <[f64; J]>::gather(&array::from_fn(|i| from[i].v)),
-    }
+) -> State<Lanes<N, I>, J> {
+    SideBySide::side_by_side(&|i| from[i])
 }
 
 /// What is asked of `N` vehicles, one in each lane; `None` unless all are asked the same kind of thing.
-pub fn asked_side_by_side<const N: usize, const J: usize>(
+pub fn asked_side_by_side<I: Instructions, const N: usize, const J: usize>(
     from: &[Asked<f64, J>; N],
-) -> Option<Asked<Lanes<N>, J>> {
+) -> Option<Asked<Lanes<N, I>, J>> {
     match from.first()? {
         Asked::Tool { axes, .. } => tools(from, *axes),
         Asked::Joints(first) => {
@@ -121,9 +71,9 @@ pub fn asked_side_by_side<const N: usize, const J: usize>(
                 *to = *at;
             }
             Some(Asked::Joints(JointSetPoint {
-                q: <[f64; J]>::gather(&all.map(|at| at.q)),
-                v: <[f64; J]>::gather(&all.map(|at| at.v)),
-                vdot: <[f64; J]>::gather(&all.map(|at| at.vdot)),
+                q: SideBySide::side_by_side(&|i| all[i].q),
+                v: SideBySide::side_by_side(&|i| all[i].v),
+                vdot: SideBySide::side_by_side(&|i| all[i].vdot),
             }))
         }
         Asked::Rates { qdot, qddot } => {
@@ -133,8 +83,8 @@ pub fn asked_side_by_side<const N: usize, const J: usize>(
                 *to = (*qdot, *qddot);
             }
             Some(Asked::Rates {
-                qdot: <[f64; J]>::gather(&all.map(|(qdot, _)| qdot)),
-                qddot: <[f64; J]>::gather(&all.map(|(_, qddot)| qddot)),
+                qdot: SideBySide::side_by_side(&|i| all[i].0),
+                qddot: SideBySide::side_by_side(&|i| all[i].1),
             })
         }
         Asked::Still => from.iter().all(|a| *a == Asked::Still).then_some(Asked::Still),
@@ -142,10 +92,10 @@ pub fn asked_side_by_side<const N: usize, const J: usize>(
     }
 }
 
-fn tools<const N: usize, const J: usize>(
+fn tools<I: Instructions, const N: usize, const J: usize>(
     from: &[Asked<f64, J>; N],
     common: crate::Axes,
-) -> Option<Asked<Lanes<N>, J>> {
+) -> Option<Asked<Lanes<N, I>, J>> {
     let zero = SpatialVelocity::zero();
     let still = ToolMotion { X_NE: Pose::identity(), V_NE_N: zero, Vdot_NE_N: zero };
     let (mut references, mut gains, mut gain_rates) = ([still; N], [0.0; N], [0.0; N]);
@@ -159,17 +109,17 @@ fn tools<const N: usize, const J: usize>(
     }
     Some(Asked::Tool {
         reference: ToolMotion {
-            X_NE: Pose::gather(&references.map(|r| r.X_NE)),
-            V_NE_N: SpatialVelocity::gather(&references.map(|r| r.V_NE_N)),
-            Vdot_NE_N: SpatialVelocity::gather(&references.map(|r| r.Vdot_NE_N)),
+            X_NE: SideBySide::side_by_side(&|i| references[i].X_NE),
+            V_NE_N: SideBySide::side_by_side(&|i| references[i].V_NE_N),
+            Vdot_NE_N: SideBySide::side_by_side(&|i| references[i].Vdot_NE_N),
         },
         axes: common,
-        gain: Lanes(gains),
-        gain_rate: Lanes(gain_rates),
+        gain: Lanes::new(gains),
+        gain_rate: Lanes::new(gain_rates),
     })
 }
 
-impl<const N: usize, const J: usize> PeriodMemory<Lanes<N>, J> {
+impl<I: Instructions, const N: usize, const J: usize> PeriodMemory<Lanes<N, I>, J> {
     /// Where the tool of one lane should be.
     pub fn reference_of(&self, i: usize) -> ToolMotion<f64> {
         let ToolMotion { X_NE, V_NE_N, Vdot_NE_N } = &self.reference;
@@ -178,47 +128,26 @@ impl<const N: usize, const J: usize> PeriodMemory<Lanes<N>, J> {
 
     /// What one lane remembers: for what decides, as where a phase begins.
     pub fn lane(&self, i: usize) -> PeriodMemory<f64, J> {
-        let one = |x: &Lanes<N>| x.lane(i);
-        let vector = |v: &Vec3<Lanes<N>>| vec3(one(&v.x), one(&v.y), one(&v.z));
-        let twist = |V: &SpatialVelocity<Lanes<N>>| {
-            SpatialVelocity::new(vector(&V.angular), vector(&V.linear))
-        };
-        let pose = |X: &Pose<Lanes<N>>| {
-            let [a, b, c] = &X.rotation.rows;
-            Pose::new(Mat3::from_rows(vector(a), vector(b), vector(c)), vector(&X.translation))
-        };
-        let joints = |q: &[Lanes<N>; J]| array::from_fn(|j| q[j].lane(i));
-        let (belief, motion, reference) = (&self.belief, &self.motion, &self.reference);
+        let (belief, motion) = (&self.belief, &self.motion);
         let h = &belief.h_Scm_N;
         PeriodMemory {
             belief: Belief {
-                X_NB: pose(&belief.X_NB),
-                q: joints(&belief.q),
-                h_Scm_N: SpatialForce::new(vector(&h.torque), vector(&h.force)),
+                X_NB: belief.X_NB.lane(i),
+                q: belief.q.lane(i),
+                h_Scm_N: SpatialForce::new(h.torque.lane(i), h.force.lane(i)),
             },
             motion: ResolvedMotion {
                 rate: Resolved {
-                    qdot: joints(&motion.rate.qdot),
-                    V_NB_B: twist(&motion.rate.V_NB_B),
+                    qdot: motion.rate.qdot.lane(i),
+                    V_NB_B: motion.rate.V_NB_B.lane(i),
                 },
-                qddot: joints(&motion.qddot),
-                A_NB_B: twist(&motion.A_NB_B),
+                qddot: motion.qddot.lane(i),
+                A_NB_B: motion.A_NB_B.lane(i),
             },
-            reference: ToolMotion {
-                X_NE: pose(&reference.X_NE),
-                V_NE_N: twist(&reference.V_NE_N),
-                Vdot_NE_N: twist(&reference.Vdot_NE_N),
-            },
-            acceleration: joints(&self.acceleration),
-            now: array::from_fn(|j| {
-                let s = &self.now[j];
-                SetPoint {
-                    position: one(&s.position),
-                    rate: one(&s.rate),
-                    acceleration: one(&s.acceleration),
-                }
-            }),
-            surprise: twist(&self.surprise),
+            reference: self.reference_of(i),
+            acceleration: self.acceleration.lane(i),
+            now: self.now.lane(i),
+            surprise: self.surprise.lane(i),
             axes: self.axes,
             started: self.started,
             coasting: self.coasting,

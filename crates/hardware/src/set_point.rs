@@ -1,6 +1,6 @@
 //! Set-points of a joint drive, and what the drive does between two of them.
 
-use wrasse_spatial::{Lanes, Real, SideBySide};
+use wrasse_spatial::{Instructions, Lanes, Real, SideBySide};
 
 /// Where a joint should be at an instant, and how it should move.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -65,7 +65,7 @@ impl<T: Real> SetPointMotion<T> {
     }
 }
 
-impl<const N: usize> SideBySide<N> for SetPoint<Lanes<N>> {
+impl<I: Instructions, const N: usize> SideBySide<N> for SetPoint<Lanes<N, I>> {
     type Alone = SetPoint<f64>;
     #[inline(always)]
     fn side_by_side(of: &impl Fn(usize) -> SetPoint<f64>) -> Self {
@@ -85,7 +85,7 @@ impl<const N: usize> SideBySide<N> for SetPoint<Lanes<N>> {
     }
 }
 
-impl<const N: usize> SideBySide<N> for SetPointMotion<Lanes<N>> {
+impl<I: Instructions, const N: usize> SideBySide<N> for SetPointMotion<Lanes<N, I>> {
     type Alone = SetPointMotion<f64>;
     #[inline(always)]
     fn side_by_side(of: &impl Fn(usize) -> SetPointMotion<f64>) -> Self {

@@ -1,16 +1,14 @@
-//! Which vector instructions the processor has, and kernels built for each of them.
+//! Which vector instructions the processor has, and numbers in lanes that are worked with them.
 //!
-//! A kernel over lanes is plain code. It is built once for each level, and the level is chosen as the
-//! program runs. All levels give the same bits: none fuses a product with a sum.
+//! What is done with lanes is plain code. It is built once for each level, and the level is chosen as
+//! the program runs. All levels give the same bits: none fuses a product with a sum.
 
-/// A piece of work that is built for each level. Its `run` and all that it calls should be
-/// `#[inline(always)]`: what is not becomes a call of code that is built for any processor.
-pub trait Kernel {
-    /// What comes of it.
-    type Out;
-    /// Do it.
-    fn run(self) -> Self::Out;
-}
+use wrasse_spatial::{Baseline, Instructions};
+
+#[cfg(target_arch = "x86_64")]
+mod wide;
+#[cfg(target_arch = "x86_64")]
+pub use wide::{Avx2, Avx512};
 
 /// How wide the vectors are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -21,6 +19,14 @@ pub enum Level {
     Avx2,
     /// Eight lanes at a time (AVX-512 F, VL and DQ).
     Avx512,
+}
+
+/// Something that can be done on any level: what it does with lanes is built for each.
+pub trait OnAnyLevel {
+    /// What comes of it.
+    type Out;
+    /// Do it with lanes of these instructions.
+    fn with<I: Instructions>(self) -> Self::Out;
 }
 
 impl Level {
@@ -35,6 +41,7 @@ impl Level {
 
     /// Whether this processor has it.
     #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
     pub fn is_available(self) -> bool {
         match self {
             Self::Base => true,
@@ -53,71 +60,78 @@ impl Level {
         self == Self::Base
     }
 
-    /// Run a kernel as it is built for this level; for the base level where the processor lacks it.
-    #[inline(always)]
-    pub fn run<K: Kernel>(self, kernel: K) -> K::Out {
-        #[cfg(target_arch = "x86_64")]
-        if self != Self::Base && self.is_available() {
-            return wide::run(self, kernel);
+    /// Do something on this level; on the base level where the processor lacks it.
+    pub fn choose<W: OnAnyLevel>(self, what: W) -> W::Out {
+        match self {
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 if self.is_available() => what.with::<Avx2>(),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 if self.is_available() => what.with::<Avx512>(),
+            _ => what.with::<Baseline>(),
         }
-        kernel.run()
-    }
-}
-
-#[cfg(target_arch = "x86_64")]
-mod wide {
-    #![allow(unsafe_code, reason = "a function for a wider processor, called where there is one")]
-
-    use crate::{Kernel, Level};
-
-    /// Run a kernel on a level that is there: the caller has asked.
-    #[inline(always)]
-    pub(crate) fn run<K: Kernel>(level: Level, kernel: K) -> K::Out {
-        match level {
-            Level::Base => kernel.run(),
-            // SAFETY: the only caller has found that the processor has these instructions.
-            Level::Avx2 => unsafe { on_avx2(kernel) },
-            // SAFETY: as above.
-            Level::Avx512 => unsafe { on_avx512(kernel) },
-        }
-    }
-
-    #[target_feature(enable = "avx2")]
-    fn on_avx2<K: Kernel>(kernel: K) -> K::Out {
-        kernel.run()
-    }
-
-    #[target_feature(enable = "avx512f,avx512vl,avx512dq")]
-    fn on_avx512<K: Kernel>(kernel: K) -> K::Out {
-        kernel.run()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::any::TypeId;
+    use wrasse_spatial::{Lanes, Real, Work};
 
-    struct Sum([f64; 8]);
+    /// Square roots of quotients, summed: in a function of their own.
+    struct Sum<I: Instructions>([Lanes<8, I>; 3]);
 
-    impl Kernel for Sum {
-        type Out = f64;
+    impl<I: Instructions> Work for Sum<I> {
+        type Out = Lanes<8, I>;
         #[inline(always)]
-        fn run(self) -> f64 {
-            self.0.iter().fold(0.0, |sum, x| sum + x * 0.1)
+        fn run(self) -> Lanes<8, I> {
+            let third = Lanes::from_f64(1.0 / 3.0);
+            self.0.into_iter().fold(Lanes::zero(), |sum, x| sum * third + (x * x / third).sqrt())
+        }
+    }
+
+    #[derive(Clone, Copy)]
+    struct SumOf([f64; 8]);
+
+    impl OnAnyLevel for SumOf {
+        type Out = [u64; 8];
+        fn with<I: Instructions>(self) -> [u64; 8] {
+            let x = Lanes::<8, I>::new(self.0);
+            Lanes::<8, I>::apart(Sum([x, x * x, x + x])).0.map(f64::to_bits)
         }
     }
 
     #[test]
-    fn every_level_gives_the_same_bits() {
+    fn every_level_gives_the_bits_of_the_number_alone() {
         let x = [0.1, 0.7, -3.0, 1e9, 1e-9, 2.0, 0.3, -0.3];
-        let base = Level::Base.run(Sum(x)).to_bits();
+        let alone = x.map(|x| {
+            let root = |x: f64| (x * x / (1.0 / 3.0)).sqrt();
+            let third = 1.0 / 3.0;
+            ((root(x) * third + root(x * x)) * third + root(x + x)).to_bits()
+        });
         for level in Level::ALL {
-            assert_eq!(level.run(Sum(x)).to_bits(), base, "{level:?}");
+            assert_eq!(level.choose(SumOf(x)), alone, "{level:?}");
+        }
+    }
+
+    struct Name;
+
+    impl OnAnyLevel for Name {
+        type Out = TypeId;
+        fn with<I: Instructions>(self) -> TypeId {
+            TypeId::of::<I>()
         }
     }
 
     #[test]
-    fn the_best_level_is_there() {
+    fn each_level_that_is_there_has_instructions_of_its_own_and_the_rest_the_baseline() {
+        let available = Level::ALL.into_iter().filter(|level| level.is_available());
+        let mut names: Vec<_> = available.map(|level| level.choose(Name)).collect();
+        let different = names.len();
+        names.dedup();
+        assert_eq!(names.len(), different);
+        let lacking = Level::ALL.into_iter().filter(|level| !level.is_available());
+        assert!(lacking.into_iter().all(|level| level.choose(Name) == TypeId::of::<Baseline>()));
         assert!(Level::best().is_available() && Level::Base.is_available());
     }
 }

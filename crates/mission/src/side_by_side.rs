@@ -17,15 +17,15 @@ use wrasse_flight::{
     asked_side_by_side, task_jacobian,
 };
 use wrasse_hardware::{SetPoint, SetPointMotion};
-use wrasse_lanes::{Kernel, Level};
-use wrasse_spatial::{Lanes, Real, SideBySide, SpatialForce, Vec3};
+use wrasse_lanes::{Level, OnAnyLevel};
+use wrasse_spatial::{Instructions, Lanes, Real, SideBySide, SpatialForce, Vec3};
 use wrasse_vehicle::JOINTS;
 use wrasse_world::{BaseAttitude, Drive, Ledger, WorldsSideBySide};
 
 /// Samples that fly at once.
 pub(crate) const LANES: usize = 8;
 
-type L = Lanes<LANES>;
+type L<I> = Lanes<LANES, I>;
 
 /// Whether samples of a case can fly side by side: sensors and attitude actuator are ideal, nothing is
 /// grasped, nothing fails and nothing pushes.
@@ -52,50 +52,47 @@ struct Lane<'a> {
 }
 
 /// Samples on their way, and what they share.
-struct Formation<'a> {
+struct Formation<'a, I: Instructions> {
     planned: &'a SamplePlan<'a>,
-    level: Level,
     lanes: Vec<Lane<'a>>,
-    worlds: WorldsSideBySide<LANES, JOINTS>,
+    worlds: WorldsSideBySide<I, LANES, JOINTS>,
     ledgers: [Ledger; LANES],
     /// The vehicles as the laws believe them to be.
-    robot: Robot<L, JOINTS>,
-    setup: Setup<L, JOINTS>,
-    memory: PeriodMemory<L, JOINTS>,
-    set_points: [SetPoint<L>; JOINTS],
-    state: State<L, JOINTS>,
+    robot: Robot<L<I>, JOINTS>,
+    setup: Setup<L<I>, JOINTS>,
+    memory: PeriodMemory<L<I>, JOINTS>,
+    set_points: [SetPoint<L<I>>; JOINTS],
+    state: State<L<I>, JOINTS>,
 }
 
-/// Fly samples as planned; `None` for each that must fly alone, for it does otherwise than the others or
-/// breaks down.
+/// Samples of a case, each as planned.
+type Cases<'a> = [(&'a Case, &'a Plan); LANES];
+
+/// Fly samples as planned, on a level of the processor; `None` for each that must fly alone, for it does
+/// otherwise than the others or breaks down.
 pub(crate) fn fly_side_by_side(
     planned: &SamplePlan<'_>,
-    cases: [(&Case, &Plan); LANES],
+    cases: Cases<'_>,
     level: Level,
 ) -> [Option<Flown>; LANES] {
-    let nothing = || core::array::from_fn(|_| None);
-    let Some(mut formation) = Formation::new(planned, cases, level) else { return nothing() };
-    let longest = cases.iter().map(|(_, plan)| plan.periods).max().unwrap_or(0);
-    for period in 0..longest {
-        if !formation.period(period) {
-            return nothing();
-        }
-    }
-    let base = planned.case.base;
-    let mut books = formation.ledgers.iter();
-    let mut lanes = formation.lanes.into_iter();
-    core::array::from_fn(|_| {
-        let (lane, books) = (lanes.next()?, books.next()?);
-        lane.keeps_up.then(|| (End::Completed, lane.watch, ledger(books, base).closes))
-    })
+    level.choose(FlySideBySide { planned, cases })
 }
 
-impl<'a> Formation<'a> {
-    fn new(
-        planned: &'a SamplePlan<'_>,
-        cases: [(&'a Case, &'a Plan); LANES],
-        level: Level,
-    ) -> Option<Self> {
+struct FlySideBySide<'a> {
+    planned: &'a SamplePlan<'a>,
+    cases: Cases<'a>,
+}
+
+impl OnAnyLevel for FlySideBySide<'_> {
+    type Out = [Option<Flown>; LANES];
+    fn with<I: Instructions>(self) -> Self::Out {
+        let flown = Formation::<I>::new(self.planned, self.cases).and_then(Formation::fly);
+        flown.unwrap_or_else(|| core::array::from_fn(|_| None))
+    }
+}
+
+impl<'a, I: Instructions> Formation<'a, I> {
+    fn new(planned: &'a SamplePlan<'a>, cases: Cases<'a>) -> Option<Self> {
         let (first, _) = cases[0];
         if cases.iter().any(|(case, _)| case.setup != first.setup) {
             return None;
@@ -109,12 +106,10 @@ impl<'a> Formation<'a> {
             keeps_up: true,
         };
         let lanes: Vec<Lane<'a>> = cases.into_iter().map(lane).collect();
-        let worlds =
-            WorldsSideBySide::new(&core::array::from_fn(|i| &lanes[i].flight.world), level)?;
+        let worlds = WorldsSideBySide::new(&core::array::from_fn(|i| &lanes[i].flight.world))?;
         let believed = core::array::from_fn(|i| *lanes[i].flight.computer.robot());
         Some(Self {
             planned,
-            level,
             ledgers: core::array::from_fn(|i| lanes[i].flight.world.open_ledger()),
             robot: Robot::side_by_side(&believed)?,
             setup: first.setup.bare(),
@@ -126,13 +121,26 @@ impl<'a> Formation<'a> {
         })
     }
 
-    /// One control period of all; whether enough of them keep up for it to be worth while.
-    fn period(&mut self, period: u64) -> bool {
-        let Self { robot, setup, memory, state, .. } = self;
-        self.level.run(Look { robot, setup, memory, state });
-        let Some(asked) = self.ask() else { return false };
-        let Self { robot, setup, memory, state, .. } = self;
-        let told = self.level.run(Act { robot, setup, memory, state, asked: &asked });
+    /// All periods; `None` if too few keep up for it to be worth while.
+    fn fly(mut self) -> Option<[Option<Flown>; LANES]> {
+        let longest = self.lanes.iter().map(|lane| lane.periods).max().unwrap_or(0);
+        for period in 0..longest {
+            self.period(period)?;
+        }
+        let base = self.planned.case.base;
+        let mut books = self.ledgers.iter();
+        let mut lanes = self.lanes.into_iter();
+        Some(core::array::from_fn(|_| {
+            let (lane, books) = (lanes.next()?, books.next()?);
+            lane.keeps_up.then(|| (End::Completed, lane.watch, ledger(books, base).closes))
+        }))
+    }
+
+    /// One control period of all; `None` if less than two keep up.
+    fn period(&mut self, period: u64) -> Option<()> {
+        self.memory.look(&self.robot, &self.setup, &self.state);
+        let asked = self.ask()?;
+        let told = self.memory.act(&self.robot, &self.setup, &self.state, &asked, None);
         self.drive(&told);
         self.state = self.worlds.state();
         let flying = core::array::from_fn(|i| {
@@ -145,11 +153,11 @@ impl<'a> Formation<'a> {
         for i in (0..LANES).filter(|i| flying[*i]) {
             self.observe(i, &told, found.as_ref());
         }
-        true
+        Some(())
     }
 
     /// What is asked of all: a lane of which something else is asked than of most falls behind.
-    fn ask(&mut self) -> Option<Asked<L, JOINTS>> {
+    fn ask(&mut self) -> Option<Asked<L<I>, JOINTS>> {
         let mut asked = [Asked::Still; LANES];
         for (i, lane) in self.lanes.iter_mut().enumerate().filter(|(_, lane)| lane.keeps_up) {
             let memory = self.memory.lane(i);
@@ -176,10 +184,10 @@ impl<'a> Formation<'a> {
     }
 
     /// Let the worlds do what was told.
-    fn drive(&mut self, told: &Told<L, JOINTS>) {
+    fn drive(&mut self, told: &Told<L<I>, JOINTS>) {
         let case = self.planned.case;
         let period = case.period();
-        let drives: [Drive<L>; JOINTS] = core::array::from_fn(|j| {
+        let drives: [Drive<L<I>>; JOINTS] = core::array::from_fn(|j| {
             if case.torque[j] {
                 return Drive::Effort(told.effort[j]);
             }
@@ -196,7 +204,12 @@ impl<'a> Formation<'a> {
     }
 
     /// See the truth of one lane.
-    fn observe(&mut self, i: usize, told: &Told<L, JOINTS>, found: Option<&Dynamics<L, JOINTS>>) {
+    fn observe(
+        &mut self,
+        i: usize,
+        told: &Told<L<I>, JOINTS>,
+        found: Option<&Dynamics<L<I>, JOINTS>>,
+    ) {
         let needs = self.planned.needs;
         let lane = &mut self.lanes[i];
         let command = command_of(told, &self.memory, i, lane.guidance.phase());
@@ -224,9 +237,9 @@ fn is_alike(a: &Asked<f64, JOINTS>, b: &Asked<f64, JOINTS>) -> bool {
 }
 
 /// What the actuators of one lane are told, those of the base being ideal.
-fn command_of(
-    told: &Told<L, JOINTS>,
-    memory: &PeriodMemory<L, JOINTS>,
+fn command_of<I: Instructions>(
+    told: &Told<L<I>, JOINTS>,
+    memory: &PeriodMemory<L<I>, JOINTS>,
     i: usize,
     phase: usize,
 ) -> Command<f64, JOINTS> {
@@ -242,38 +255,5 @@ fn command_of(
         phase,
         reference: memory.reference_of(i),
         axes: memory.axes,
-    }
-}
-
-/// The first half of a control period.
-struct Look<'a> {
-    robot: &'a Robot<L, JOINTS>,
-    setup: &'a Setup<L, JOINTS>,
-    memory: &'a mut PeriodMemory<L, JOINTS>,
-    state: &'a State<L, JOINTS>,
-}
-
-impl Kernel for Look<'_> {
-    type Out = ();
-    #[inline(always)]
-    fn run(self) {
-        self.memory.look(self.robot, self.setup, self.state);
-    }
-}
-
-/// The second half.
-struct Act<'a> {
-    robot: &'a Robot<L, JOINTS>,
-    setup: &'a Setup<L, JOINTS>,
-    memory: &'a mut PeriodMemory<L, JOINTS>,
-    state: &'a State<L, JOINTS>,
-    asked: &'a Asked<L, JOINTS>,
-}
-
-impl Kernel for Act<'_> {
-    type Out = Told<L, JOINTS>;
-    #[inline(always)]
-    fn run(self) -> Self::Out {
-        self.memory.act(self.robot, self.setup, self.state, self.asked, None)
     }
 }

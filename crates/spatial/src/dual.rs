@@ -1,6 +1,6 @@
 //! Dual numbers: a value and its exact derivative, carried through any kernel of this workspace.
 
-use crate::Real;
+use crate::{Real, Work};
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// `value + derivative·ε` with ε² = 0.
@@ -108,6 +108,10 @@ impl<T: Real> Real for Dual<T> {
     #[inline(always)]
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self {
         Self::new(T::select(mask, a.value, b.value), T::select(mask, a.derivative, b.derivative))
+    }
+    #[inline(always)]
+    fn apart<W: Work>(work: W) -> W::Out {
+        T::apart(work)
     }
 }
 

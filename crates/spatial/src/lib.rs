@@ -10,6 +10,7 @@
 mod counted;
 mod dual;
 mod inertia;
+mod instructions;
 mod lanes;
 mod matrix;
 mod motion;
@@ -27,6 +28,7 @@ mod vector;
 pub use counted::Counted;
 pub use dual::Dual;
 pub use inertia::{ArticulatedInertia, InverseInertia, SpatialInertia};
+pub use instructions::{Baseline, Instructions, Work};
 pub use lanes::{LaneMask, Lanes};
 pub use matrix::{Mat3, Sym3};
 pub use motion::{SpatialAcceleration, SpatialForce, SpatialMomentum, SpatialVelocity};

@@ -1,7 +1,7 @@
 //! The scalar that the core is written over: `f64`, `f32`, duals, and lanes.
 
-use crate::Lanes;
 use crate::trigonometry::{sin_cos_f32, sin_cos_f64};
+use crate::{Lanes, Work};
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -10,7 +10,7 @@ mod sealed {
     impl Sealed for f64 {}
     impl Sealed for f32 {}
     impl<T: Sealed> Sealed for crate::Dual<T> {}
-    impl<const N: usize> Sealed for crate::Lanes<N> {}
+    impl<const N: usize, I: crate::Instructions> Sealed for crate::Lanes<N, I> {}
     #[cfg(feature = "counted")]
     impl Sealed for crate::Counted {}
 }
@@ -55,6 +55,15 @@ pub trait Real:
     #[must_use]
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
 
+    /// Do a long piece of work as a function of its own, built for the instructions that these numbers
+    /// are worked with; for a single number it is done on the spot.
+    ///
+    /// Short functions over `Self` are `#[inline(always)]`, long ones go apart. What is neither is
+    /// built for any processor: right, but slow in lanes.
+    #[inline(always)]
+    fn apart<W: Work>(work: W) -> W::Out {
+        work.run()
+    }
     /// Sines and cosines of the first `count` angles (rad), zeros behind them.
     #[inline(always)]
     fn sin_cos_each<const J: usize>(angles: &[Self; J], count: usize) -> ([Self; J], [Self; J]) {

@@ -1,6 +1,9 @@
 //! Quantities of several vehicles put side by side into lanes, and taken out again.
 
-use crate::{Lanes, Mat3, Pose, Quat, SpatialForce, SpatialInertia, SpatialVelocity, Sym3, Vec3};
+use crate::{
+    Instructions, Lanes, Mat3, Pose, Quat, SpatialForce, SpatialInertia, SpatialVelocity, Sym3,
+    Vec3,
+};
 
 /// A quantity over lanes, made of one for each lane.
 pub trait SideBySide<const N: usize> {
@@ -14,7 +17,7 @@ pub trait SideBySide<const N: usize> {
     fn lane(&self, i: usize) -> Self::Alone;
 }
 
-impl<const N: usize> SideBySide<N> for Lanes<N> {
+impl<const N: usize, I: Instructions> SideBySide<N> for Lanes<N, I> {
     type Alone = f64;
     #[inline(always)]
     fn side_by_side(of: &impl Fn(usize) -> f64) -> Self {
@@ -40,7 +43,7 @@ impl<const N: usize, const J: usize, E: SideBySide<N>> SideBySide<N> for [E; J] 
 
 macro_rules! of_parts {
     ($kind:ident, $($part:ident),+) => {
-        impl<const N: usize> SideBySide<N> for $kind<Lanes<N>> {
+        impl<const N: usize, I: Instructions> SideBySide<N> for $kind<Lanes<N, I>> {
             type Alone = $kind<f64>;
             #[inline(always)]
             fn side_by_side(of: &impl Fn(usize) -> $kind<f64>) -> Self {

@@ -3,9 +3,9 @@
 use wrasse_mission::{End, fly_sample, plan_samples, read_mission};
 use wrasse_sweep::{Sweep, sweep};
 
-/// Samples of which some find no way: the end of the line is near the end of the reach.
+/// Samples of which some find no way: near a singular posture the joints cannot follow so fast a line.
 const MISSION: &str = r#"
-name = "near-the-reach"
+name = "fast-line"
 vehicle = "atlas-class"
 requirements = ["tool.position_error.max <= 0.1 mm", "joints.effort_use.max <= 100 %"]
 
@@ -21,7 +21,7 @@ arm_law = "attitude-held"
 
 [[phase]]
 name = "reach"
-move_tool = { by_m = [0.0, 0.02, 0.0], duration_s = 0.5 }
+move_tool = { by_m = [0.0, 0.06, 0.0], duration_s = 0.5 }
 
 [[disperse]]
 quantity = "initial.joints_deg"
@@ -54,6 +54,7 @@ fn every_row_is_that_of_the_sample_alone_by_one_thread_and_by_two() {
             assert_eq!((found, &row.end), (wanted, &alone.end), "sample {}", row.sample);
         }
     }
+    // Measured: 13 of 20.
     let completed = alone.iter().filter(|a| a.end == End::Completed).count();
-    assert!((3..20).contains(&completed), "some find no way: {completed} do");
+    assert!((3..20).contains(&completed), "some find no way, some do: {completed} of 20");
 }

@@ -10,7 +10,7 @@ use wrasse_dynamics::{
     kinematics,
 };
 use wrasse_spatial::{
-    Pose, Real, SpatialForce, SpatialVelocity, Vec3, rotation_vector_rate, turned_by,
+    Pose, Real, SpatialForce, SpatialVelocity, Vec3, Work, rotation_vector_rate, turned_by,
 };
 
 /// A vehicle and what drives it.
@@ -46,32 +46,7 @@ impl<T: Real, const J: usize> FreeFlight<'_, T, J> {
         inside_B: Vec3<T>,
         t: f64,
     ) -> State<T, J> {
-        let mut state = State { q: system.q, v: system.v, ..State::default() };
-        for j in self.robot.joints() {
-            if let Drive::Follow(motion) = &self.drives[j] {
-                let set_point = motion.at(T::from_f64(t));
-                (state.q[j], state.v[j]) = (set_point.position, set_point.rate);
-            }
-        }
-        // Inertia with joints locked and momentum of the joint rates alone: about Bo, in base axes.
-        let rows = base_rows(&kinematics(self.robot, &state));
-        let (M, h_of_rates) = (rows.M_bb, rows.momentum_of_rates(&state.v));
-        let R_NB = system.quat_NB.to_matrix();
-        let p_BScm_B = M.centre_of_mass();
-        let linear_B = R_NB.transpose_mul(system.linear);
-        state.V_NB_B = match self.base {
-            BaseAttitude::Held => SpatialVelocity::new(
-                Vec3::zero(),
-                (linear_B - h_of_rates.force) * (T::one() / M.mass),
-            ),
-            BaseAttitude::Free | BaseAttitude::Controlled => {
-                let about_cm = SpatialForce::new(R_NB.transpose_mul(system.angular), linear_B);
-                let inside = SpatialForce::new(inside_B, Vec3::zero());
-                M.velocity_of(&(about_cm.about(-p_BScm_B) - h_of_rates - inside))
-            }
-        };
-        state.X_NB = Pose::new(R_NB, system.p_NScm_N - R_NB * p_BScm_B);
-        state
+        T::apart(Expand { vehicle: self, system, inside_B, t })
     }
 
     /// Accelerations and forces, `t` (s) into the current set-points: with what turns the base beside
@@ -96,16 +71,17 @@ impl<T: Real, const J: usize> FreeFlight<'_, T, J> {
         driven_dynamics(k, &drives, self.base.mode(), &on_bodies)
     }
 
+    /// Accelerations and forces in a state, with nothing bolted on.
+    #[inline(always)]
+    pub(crate) fn bare_dynamics(&self, state: &State<T, J>, t: f64) -> Dynamics<T, J> {
+        T::apart(BareDynamics { vehicle: self, state, t })
+    }
+
     /// Rates of the flow at displacement `d` from a system state, `t` (s) into the set-points, with
     /// nothing bolted on.
     #[inline(always)]
     pub(crate) fn rates(&self, from: &SystemState<J, T>, d: &Flow<J, T>, t: f64) -> Flow<J, T> {
-        let system = from.displaced(d);
-        let state = self.expand(&system, Vec3::zero(), t);
-        let k = kinematics(self.robot, &state);
-        let nothing = (Vec3::zero(), SpatialForce::zero());
-        let found = self.dynamics(&k, t, nothing, &PerBody::filled(SpatialForce::zero()));
-        self.flow(&system, d, &state, &found, Vec3::zero())
+        T::apart(Rates { vehicle: self, from, d, t })
     }
 
     /// Rates of the flow at displacement `d`, where drives, actuator and what turns the base are all
@@ -163,6 +139,85 @@ impl<T: Real, const J: usize> FreeFlight<'_, T, J> {
         add_vector(&mut s.angular, d.angular, &mut carry.angular);
         add_vector(&mut booked.from_actuator, d.from_actuator, &mut carry.from_actuator);
         add_vector(&mut booked.work, d.work, &mut carry.work);
+    }
+}
+
+/// The state that a system state means.
+struct Expand<'a, T, const J: usize> {
+    vehicle: &'a FreeFlight<'a, T, J>,
+    system: &'a SystemState<J, T>,
+    inside_B: Vec3<T>,
+    t: f64,
+}
+
+impl<T: Real, const J: usize> Work for Expand<'_, T, J> {
+    type Out = State<T, J>;
+    #[inline(always)]
+    fn run(self) -> State<T, J> {
+        let Self { vehicle, system, inside_B, t } = self;
+        let mut state = State { q: system.q, v: system.v, ..State::default() };
+        for j in vehicle.robot.joints() {
+            if let Drive::Follow(motion) = &vehicle.drives[j] {
+                let set_point = motion.at(T::from_f64(t));
+                (state.q[j], state.v[j]) = (set_point.position, set_point.rate);
+            }
+        }
+        // Inertia with joints locked and momentum of the joint rates alone: about Bo, in base axes.
+        let rows = base_rows(&kinematics(vehicle.robot, &state));
+        let (M, h_of_rates) = (rows.M_bb, rows.momentum_of_rates(&state.v));
+        let R_NB = system.quat_NB.to_matrix();
+        let p_BScm_B = M.centre_of_mass();
+        let linear_B = R_NB.transpose_mul(system.linear);
+        state.V_NB_B = match vehicle.base {
+            BaseAttitude::Held => SpatialVelocity::new(
+                Vec3::zero(),
+                (linear_B - h_of_rates.force) * (T::one() / M.mass),
+            ),
+            BaseAttitude::Free | BaseAttitude::Controlled => {
+                let about_cm = SpatialForce::new(R_NB.transpose_mul(system.angular), linear_B);
+                let inside = SpatialForce::new(inside_B, Vec3::zero());
+                M.velocity_of(&(about_cm.about(-p_BScm_B) - h_of_rates - inside))
+            }
+        };
+        state.X_NB = Pose::new(R_NB, system.p_NScm_N - R_NB * p_BScm_B);
+        state
+    }
+}
+
+/// Accelerations and forces of a vehicle with nothing bolted on.
+struct BareDynamics<'a, T, const J: usize> {
+    vehicle: &'a FreeFlight<'a, T, J>,
+    state: &'a State<T, J>,
+    t: f64,
+}
+
+impl<T: Real, const J: usize> Work for BareDynamics<'_, T, J> {
+    type Out = Dynamics<T, J>;
+    #[inline(always)]
+    fn run(self) -> Dynamics<T, J> {
+        let k = kinematics(self.vehicle.robot, self.state);
+        let nothing = (Vec3::zero(), SpatialForce::zero());
+        self.vehicle.dynamics(&k, self.t, nothing, &PerBody::filled(SpatialForce::zero()))
+    }
+}
+
+/// Rates of the flow of a vehicle with nothing bolted on.
+struct Rates<'a, T, const J: usize> {
+    vehicle: &'a FreeFlight<'a, T, J>,
+    from: &'a SystemState<J, T>,
+    d: &'a Flow<J, T>,
+    t: f64,
+}
+
+impl<T: Real, const J: usize> Work for Rates<'_, T, J> {
+    type Out = Flow<J, T>;
+    #[inline(always)]
+    fn run(self) -> Flow<J, T> {
+        let Self { vehicle, from, d, t } = self;
+        let system = from.displaced(d);
+        let state = vehicle.expand(&system, Vec3::zero(), t);
+        let found = vehicle.bare_dynamics(&state, t);
+        vehicle.flow(&system, d, &state, &found, Vec3::zero())
     }
 }
 

@@ -8,27 +8,26 @@ use crate::ledger::{Account, Ledger, account};
 use crate::setup::{BaseAttitude, Drive};
 use crate::stepper::{Stepper, equal_steps, runge_kutta_4};
 use crate::world::{SystemState, World};
-use wrasse_dynamics::{Dynamics, PerBody, Robot, State, kinematics};
+use wrasse_dynamics::{Dynamics, Robot, State};
 use wrasse_hardware::{AttitudeActuator, JointLimits};
-use wrasse_lanes::{Kernel, Level};
-use wrasse_spatial::{Lanes, Real, SideBySide, SpatialForce, Vec3};
+use wrasse_spatial::{Instructions, Lanes, Real, SideBySide, Vec3, Work};
 
-/// Worlds that go through time together, a lane to each. Every lane has the bits of its world alone.
+/// Worlds that go through time together, a lane to each, worked with the instructions `I`. Every lane
+/// has the bits of its world alone.
 #[derive(Debug, Clone)]
-pub struct WorldsSideBySide<const N: usize, const J: usize> {
-    level: Level,
-    robot: Robot<Lanes<N>, J>,
+pub struct WorldsSideBySide<I: Instructions, const N: usize, const J: usize> {
+    robot: Robot<Lanes<N, I>, J>,
     limits: [JointLimits<f64>; J],
     actuator: Option<AttitudeActuator<f64>>,
     base: BaseAttitude,
     /// (s)
     step: f64,
-    mass: Lanes<N>,
-    system: SystemState<J, Lanes<N>>,
-    carry: Flow<J, Lanes<N>>,
-    booked: Flow<J, Lanes<N>>,
-    drives: [Drive<Lanes<N>>; J],
-    actuator_torque_B: Vec3<Lanes<N>>,
+    mass: Lanes<N, I>,
+    system: SystemState<J, Lanes<N, I>>,
+    carry: Flow<J, Lanes<N, I>>,
+    booked: Flow<J, Lanes<N, I>>,
+    drives: [Drive<Lanes<N, I>>; J],
+    actuator_torque_B: Vec3<Lanes<N, I>>,
     /// Time (s), and what rounding took from it.
     time: f64,
     time_carry: f64,
@@ -61,10 +60,10 @@ impl<const J: usize> World<J> {
     }
 }
 
-impl<const N: usize, const J: usize> WorldsSideBySide<N, J> {
-    /// These worlds as they are, on a level of the processor; `None` if more than drives and an ideal
-    /// actuator moves them, or if they differ in more than masses and states.
-    pub fn new(worlds: &[&World<J>; N], level: Level) -> Option<Self> {
+impl<I: Instructions, const N: usize, const J: usize> WorldsSideBySide<I, N, J> {
+    /// These worlds as they are; `None` if more than drives and an ideal actuator moves them, or if
+    /// they differ in more than masses and states.
+    pub fn new(worlds: &[&World<J>; N]) -> Option<Self> {
         let first = worlds.first()?;
         let Stepper::Fixed { step } = first.stepper else { return None };
         if !worlds.iter().all(|world| world.is_plain() && first.goes_with(world)) {
@@ -83,7 +82,6 @@ impl<const N: usize, const J: usize> WorldsSideBySide<N, J> {
             }
         });
         Some(Self {
-            level,
             robot: Robot::side_by_side(&core::array::from_fn(|i| worlds[i].robot))?,
             limits: first.limits,
             actuator: first.actuator,
@@ -102,7 +100,7 @@ impl<const N: usize, const J: usize> WorldsSideBySide<N, J> {
         })
     }
 
-    fn vehicle(&self) -> FreeFlight<'_, Lanes<N>, J> {
+    fn vehicle(&self) -> FreeFlight<'_, Lanes<N, I>, J> {
         FreeFlight {
             robot: &self.robot,
             drives: &self.drives,
@@ -112,22 +110,21 @@ impl<const N: usize, const J: usize> WorldsSideBySide<N, J> {
         }
     }
     /// Where everything is and how it moves.
-    pub fn state(&self) -> State<Lanes<N>, J> {
-        let (vehicle, system) = (self.vehicle(), &self.system);
-        self.level.run(Expand { vehicle, system, t: self.into_period })
+    pub fn state(&self) -> State<Lanes<N, I>, J> {
+        self.vehicle().expand(&self.system, Vec3::zero(), self.into_period)
     }
     /// Accelerations and forces in the state that it is in.
-    pub fn dynamics(&self, state: &State<Lanes<N>, J>) -> Dynamics<Lanes<N>, J> {
-        self.level.run(Accelerate { vehicle: self.vehicle(), state, t: self.into_period })
+    pub fn dynamics(&self, state: &State<Lanes<N, I>, J>) -> Dynamics<Lanes<N, I>, J> {
+        self.vehicle().bare_dynamics(state, self.into_period)
     }
     /// Bring the books of these lanes up to now, in the state that it is in.
     pub fn update_ledgers(
         &self,
-        state: &State<Lanes<N>, J>,
+        state: &State<Lanes<N, I>, J>,
         ledgers: &mut [Ledger; N],
         these: &[bool; N],
     ) {
-        let now = self.level.run(Count { robot: &self.robot, state });
+        let now = account(&self.robot, state);
         for (i, ledger) in ledgers.iter_mut().enumerate().filter(|(i, _)| these[*i]) {
             let (impulse, work) = (self.booked.from_actuator.lane(i), self.booked.work.lane(i));
             ledger.book(now.lane(i), impulse, work);
@@ -137,15 +134,15 @@ impl<const N: usize, const J: usize> WorldsSideBySide<N, J> {
     /// Set what drives the joints and turns the base for the coming period (s), within the limits.
     pub fn command(
         &mut self,
-        drives: &[Drive<Lanes<N>>; J],
-        torque_B: Vec3<Lanes<N>>,
+        drives: &[Drive<Lanes<N, I>>; J],
+        torque_B: Vec3<Lanes<N, I>>,
         period: f64,
     ) {
         (self.period_start, self.into_period) = (self.time, 0.0);
         self.drives = *drives;
         for (drive, limits) in self.drives.iter_mut().zip(&self.limits) {
             if let (Drive::Effort(tau), Some(limit)) = (drive, limits.effort) {
-                *tau = tau.clamp_to(Lanes([limit; N]));
+                *tau = tau.clamp_to(Lanes::from_f64(limit));
             }
         }
         self.actuator_torque_B = match (self.base, self.actuator) {
@@ -159,9 +156,9 @@ impl<const N: usize, const J: usize> WorldsSideBySide<N, J> {
     fn within(
         &self,
         limits: AttitudeActuator<f64>,
-        wanted_B: Vec3<Lanes<N>>,
+        wanted_B: Vec3<Lanes<N, I>>,
         period: f64,
-    ) -> Vec3<Lanes<N>> {
+    ) -> Vec3<Lanes<N, I>> {
         let w_NB_B = self.state().V_NB_B.angular;
         let given: [Vec3<f64>; N] = core::array::from_fn(|i| {
             let R_NB = self.system.quat_NB.lane(i).to_matrix();
@@ -184,7 +181,7 @@ impl<const N: usize, const J: usize> WorldsSideBySide<N, J> {
             let (mut system, mut carry, mut booked) = (self.system, self.carry, self.booked);
             let sums = (&mut system, &mut carry, &mut booked);
             let t1 = self.into_period + gone;
-            self.level.run(Step { vehicle: self.vehicle(), h, t0, t1, sums });
+            Lanes::<N, I>::apart(Step { vehicle: self.vehicle(), h, t0, t1, sums });
             (self.system, self.carry, self.booked) = (system, carry, booked);
         }
         self.into_period += period;
@@ -211,66 +208,23 @@ impl<const N: usize, const J: usize> WorldsSideBySide<N, J> {
     }
 }
 
-/// The state that a system state means.
-struct Expand<'a, const N: usize, const J: usize> {
-    vehicle: FreeFlight<'a, Lanes<N>, J>,
-    system: &'a SystemState<J, Lanes<N>>,
-    t: f64,
-}
-
-impl<const N: usize, const J: usize> Kernel for Expand<'_, N, J> {
-    type Out = State<Lanes<N>, J>;
-    #[inline(always)]
-    fn run(self) -> Self::Out {
-        self.vehicle.expand(self.system, Vec3::zero(), self.t)
-    }
-}
-
-/// Accelerations and forces in a state.
-struct Accelerate<'a, const N: usize, const J: usize> {
-    vehicle: FreeFlight<'a, Lanes<N>, J>,
-    state: &'a State<Lanes<N>, J>,
-    t: f64,
-}
-
-impl<const N: usize, const J: usize> Kernel for Accelerate<'_, N, J> {
-    type Out = Dynamics<Lanes<N>, J>;
-    #[inline(always)]
-    fn run(self) -> Self::Out {
-        let k = kinematics(self.vehicle.robot, self.state);
-        let nothing = (Vec3::zero(), SpatialForce::zero());
-        self.vehicle.dynamics(&k, self.t, nothing, &PerBody::filled(SpatialForce::zero()))
-    }
-}
-
-/// Momentum and energy.
-struct Count<'a, const N: usize, const J: usize> {
-    robot: &'a Robot<Lanes<N>, J>,
-    state: &'a State<Lanes<N>, J>,
-}
-
-impl<const N: usize, const J: usize> Kernel for Count<'_, N, J> {
-    type Out = Account<Lanes<N>>;
-    #[inline(always)]
-    fn run(self) -> Self::Out {
-        account(self.robot, self.state)
-    }
-}
-
 /// State, what its sums lost, and what is booked.
-type Sums<'a, const N: usize, const J: usize> =
-    (&'a mut SystemState<J, Lanes<N>>, &'a mut Flow<J, Lanes<N>>, &'a mut Flow<J, Lanes<N>>);
+type Sums<'a, I, const N: usize, const J: usize> = (
+    &'a mut SystemState<J, Lanes<N, I>>,
+    &'a mut Flow<J, Lanes<N, I>>,
+    &'a mut Flow<J, Lanes<N, I>>,
+);
 
 /// One step of length `h` from `t0` to `t1` (s into the set-points).
-struct Step<'a, const N: usize, const J: usize> {
-    vehicle: FreeFlight<'a, Lanes<N>, J>,
+struct Step<'a, I: Instructions, const N: usize, const J: usize> {
+    vehicle: FreeFlight<'a, Lanes<N, I>, J>,
     h: f64,
     t0: f64,
     t1: f64,
-    sums: Sums<'a, N, J>,
+    sums: Sums<'a, I, N, J>,
 }
 
-impl<const N: usize, const J: usize> Kernel for Step<'_, N, J> {
+impl<I: Instructions, const N: usize, const J: usize> Work for Step<'_, I, N, J> {
     type Out = ();
     #[inline(always)]
     fn run(self) {
@@ -283,7 +237,7 @@ impl<const N: usize, const J: usize> Kernel for Step<'_, N, J> {
 
 macro_rules! of_parts {
     ($alone:ty, $lanes:ty, [$($capacity:tt)*], $($part:ident),+) => {
-        impl<const N: usize $($capacity)*> SideBySide<N> for $lanes {
+        impl<I: Instructions, const N: usize $($capacity)*> SideBySide<N> for $lanes {
             type Alone = $alone;
             fn side_by_side(of: &impl Fn(usize) -> $alone) -> Self {
                 Self { $($part: SideBySide::side_by_side(&|i| of(i).$part)),+ }
@@ -295,17 +249,17 @@ macro_rules! of_parts {
     };
 }
 of_parts!(
-    SystemState<J>, SystemState<J, Lanes<N>>, [, const J: usize],
+    SystemState<J>, SystemState<J, Lanes<N, I>>, [, const J: usize],
     quat_NB, q, v, p_NScm_N, linear, angular, wheel_momentum, gimbal_angle, gimbal_rate
 );
 of_parts!(
-    Flow<J>, Flow<J, Lanes<N>>, [, const J: usize],
+    Flow<J>, Flow<J, Lanes<N, I>>, [, const J: usize],
     turn, q, v, p_NScm_N, linear, angular, wheel_momentum, gimbal_angle, gimbal_rate, from_actuator,
     from_outside, outside_impulse, from_thrusters, thruster_impulse, work
 );
 of_parts!(
     Account,
-    Account<Lanes<N>>,
+    Account<Lanes<N, I>>,
     [],
     linear,
     angular,

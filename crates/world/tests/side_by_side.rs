@@ -4,8 +4,10 @@
 
 use wrasse_dynamics::{BodyId, Joint, JointKind, Payload, Robot, State};
 use wrasse_hardware::{ActuatorCommand, AttitudeActuator, JointLimits, SetPoint, SetPointMotion};
-use wrasse_lanes::Level;
-use wrasse_spatial::{Lanes, Pose, SideBySide, SpatialVelocity, Sym3, Vec3, vec3};
+use wrasse_lanes::{Level, OnAnyLevel};
+use wrasse_spatial::{
+    Baseline, Instructions, Lanes, Pose, SideBySide, SpatialVelocity, Sym3, Vec3, vec3,
+};
 use wrasse_world::{
     BaseAttitude, Drive, Equipment, FreeBody, Ledger, Stepper, World, WorldSetup, WorldsSideBySide,
 };
@@ -61,14 +63,12 @@ fn fly_alone(world: &mut World<2>, i: usize, periods: usize) -> Ledger {
 }
 
 /// Worlds side by side after some periods; one lane is given `spoilt` in place of its effort.
-fn fly_together(
+fn fly_together<I: Instructions>(
     worlds: &[World<2>; N],
-    level: Level,
     periods: usize,
     spoilt: Option<(usize, f64)>,
-) -> (WorldsSideBySide<N, 2>, [Ledger; N]) {
-    let mut together =
-        WorldsSideBySide::new(&worlds.each_ref(), level).expect("they go side by side");
+) -> (WorldsSideBySide<I, N, 2>, [Ledger; N]) {
+    let mut together = WorldsSideBySide::new(&worlds.each_ref()).expect("they go side by side");
     let mut ledgers = worlds.each_ref().map(World::open_ledger);
     for period in 0..periods {
         let each: [_; N] = core::array::from_fn(|i| told(i, period));
@@ -102,20 +102,30 @@ fn begun(base: BaseAttitude) -> [World<2>; N] {
     })
 }
 
+/// Twelve periods flown alone and beside others.
+struct AloneAndTogether(BaseAttitude);
+
+impl OnAnyLevel for AloneAndTogether {
+    type Out = ();
+    fn with<I: Instructions>(self) {
+        let mut alone = begun(self.0);
+        let (together, ledgers) = fly_together::<I>(&alone, 12, None);
+        for (i, world) in alone.iter_mut().enumerate() {
+            let (ledger, place) = (fly_alone(world, i, 12), (self.0, std::any::type_name::<I>()));
+            assert_eq!(together.state().lane(i), world.state(), "{place:?}");
+            let dynamics = together.dynamics(&together.state()).lane(i);
+            assert_eq!(dynamics, world.dynamics(), "{place:?}");
+            assert_eq!(ledgers[i], ledger, "{place:?}");
+            assert!(together.is_finite(i));
+        }
+    }
+}
+
 #[test]
 fn a_world_has_the_same_bits_alone_and_in_its_lane_on_every_level() {
     for base in [BaseAttitude::Free, BaseAttitude::Held, BaseAttitude::Controlled] {
-        for level in Level::ALL.into_iter().filter(|level| level.is_available()) {
-            let mut alone = begun(base);
-            let (together, ledgers) = fly_together(&alone, level, 12, None);
-            for (i, world) in alone.iter_mut().enumerate() {
-                let ledger = fly_alone(world, i, 12);
-                assert_eq!(together.state().lane(i), world.state(), "{base:?}, {level:?}");
-                let dynamics = together.dynamics(&together.state()).lane(i);
-                assert_eq!(dynamics, world.dynamics(), "{base:?}, {level:?}");
-                assert_eq!(ledgers[i], ledger, "{base:?}, {level:?}");
-                assert!(together.is_finite(i));
-            }
+        for level in Level::ALL {
+            level.choose(AloneAndTogether(base));
         }
     }
 }
@@ -123,8 +133,8 @@ fn a_world_has_the_same_bits_alone_and_in_its_lane_on_every_level() {
 #[test]
 fn a_lane_that_breaks_down_disturbs_no_other() {
     let worlds = begun(BaseAttitude::Controlled);
-    let (whole, _) = fly_together(&worlds, Level::best(), 5, None);
-    let (spoilt, _) = fly_together(&worlds, Level::best(), 5, Some((2, f64::NAN)));
+    let (whole, _) = fly_together::<Baseline>(&worlds, 5, None);
+    let (spoilt, _) = fly_together::<Baseline>(&worlds, 5, Some((2, f64::NAN)));
     for i in 0..N {
         assert_eq!(spoilt.is_finite(i), i != 2);
         if i != 2 {
@@ -138,7 +148,7 @@ fn worlds_that_are_moved_by_more_or_differ_in_more_do_not_go_side_by_side() {
     let goes = |change: &dyn Fn(&mut [World<2>; N])| {
         let mut worlds = begun(BaseAttitude::Free);
         change(&mut worlds);
-        WorldsSideBySide::new(&worlds.each_ref(), Level::Base).is_some()
+        WorldsSideBySide::<Baseline, N, 2>::new(&worlds.each_ref()).is_some()
     };
     assert!(goes(&|_| ()));
     assert!(!goes(&|worlds| worlds[3].advance(PERIOD).unwrap()), "another time");
