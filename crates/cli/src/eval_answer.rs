@@ -3,12 +3,12 @@
 use crate::eval::Question;
 use serde_json::{Value, json};
 use wrasse_dynamics::{
-    BodyId, Frame, GeneralizedForce, GeneralizedVelocity, Kinematics, PerBody,
+    BodyId, Frame, GeneralizedForce, GeneralizedVelocity, Kinematics, Outside,
     attitude_held_jacobian, attitude_torque, barycentric_vectors, bias_force, forward_dynamics,
     generalized_jacobian, inverse_dynamics, jacobian, kinematics, kinetic_energy, mass_matrix,
     momentum, mount_reaction, printed_reaction,
 };
-use wrasse_spatial::{Quat, SpatialForce, SpatialVelocity, Vec3};
+use wrasse_spatial::{Quat, SpatialVelocity, Vec3};
 use wrasse_vehicle::{JOINTS, Vehicle};
 
 /// The answer to all questions; the frame must be one of the vehicle's.
@@ -42,13 +42,13 @@ fn rows(columns: &[SpatialVelocity<f64>]) -> Vec<Vec<f64>> {
 fn result(vehicle: &Vehicle, frame: &Frame<f64>, q: &Question) -> Value {
     let n = vehicle.joint_names.len();
     let k = kinematics(&vehicle.robot, &q.state);
-    let none = PerBody::filled(SpatialForce::zero());
+    let none = Outside::nothing();
     let (M, J) = (mass_matrix(&k), jacobian(&k, frame));
     let h = momentum(&k);
     let R_NB = q.state.X_NB.rotation;
     let pose = k.pose(frame);
     let attitude = Quat::from_matrix(&pose.rotation);
-    let dynamics = inverse_dynamics(&k, &q.nudot, &none);
+    let dynamics = inverse_dynamics(&k, &q.nudot, none);
     let matrix: Vec<Vec<f64>> =
         (0..6 + n).map(|r| (0..6 + n).map(|c| M.element(r, c)).collect()).collect();
     let all_columns: Vec<_> = J.base().iter().chain(&J.joints[..n]).copied().collect();
@@ -56,7 +56,7 @@ fn result(vehicle: &Vehicle, frame: &Frame<f64>, q: &Question) -> Value {
         "mass_matrix": matrix,
         "bias_force": flat_force(&bias_force(&k), n),
         "inverse_dynamics": flat_force(&dynamics.force, n),
-        "forward_dynamics": flat_velocity(&forward_dynamics(&k, &q.force, &none), n),
+        "forward_dynamics": flat_velocity(&forward_dynamics(&k, &q.force, none), n),
         "momentum": { "angular": xyz(h.angular), "linear": xyz(h.linear) },
         "kinetic_energy": kinetic_energy(&k),
         "mass": h.mass,
@@ -88,8 +88,8 @@ fn lambda(vehicle: &Vehicle, k: &Kinematics<'_, f64, JOINTS>, frame: &Frame<f64>
 
 /// One for each chain that leaves the base.
 fn reactions(vehicle: &Vehicle, k: &Kinematics<'_, f64, JOINTS>, q: &Question) -> Value {
-    let none = PerBody::filled(SpatialForce::zero());
-    let dynamics = inverse_dynamics(k, &q.nudot, &none);
+    let none = Outside::nothing();
+    let dynamics = inverse_dynamics(k, &q.nudot, none);
     let roots = k.robot.joints().filter(|&j| k.robot.joint(j).parent == BodyId::Base);
     roots
         .map(|root| {

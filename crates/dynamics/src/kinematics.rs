@@ -40,6 +40,15 @@ pub fn kinematics<'a, T: Real, const J: usize>(
 }
 
 impl<'a, T: Real, const J: usize> Kinematics<'a, T, J> {
+    /// As bent as it is, but placed and moving as another state says, whose joint positions must be
+    /// the same: no sine is worked out twice.
+    #[inline(always)]
+    pub fn moving_as<'b>(&self, state: &'b State<T, J>) -> Kinematics<'b, T, J>
+    where
+        'a: 'b,
+    {
+        Kinematics { robot: self.robot, state, turns: self.turns }
+    }
     /// A link on its parent.
     #[inline(always)]
     pub fn seat(&self, j: usize) -> Seat<'a, T> {

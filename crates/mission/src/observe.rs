@@ -5,7 +5,7 @@ use crate::mission::Case;
 use crate::quantity::FIXED_COUNT;
 use crate::read_base::Turning;
 use wrasse_dynamics::{
-    BodyId, Dynamics, Frame, Generalized, JointKind, Kinematics, PerBody, State, inverse_dynamics,
+    BodyId, Dynamics, Frame, Generalized, JointKind, Kinematics, Outside, State, inverse_dynamics,
     kinematics, kinetic_energy, mount_reaction,
 };
 use wrasse_flight::{Axes, Command};
@@ -288,7 +288,7 @@ fn mounts(
     k: &Kinematics<'_, f64, JOINTS>,
     dynamics: &Dynamics<f64, JOINTS>,
 ) -> ((f64, f64), Vec3<f64>) {
-    let forces = inverse_dynamics(k, &dynamics.nudot, &PerBody::filled(SpatialForce::zero()));
+    let forces = inverse_dynamics(k, &dynamics.nudot, Outside::nothing());
     let X_NB = &k.X_NB(BodyId::Base);
     let p_NBcm = X_NB.point(k.robot.inertia(BodyId::Base).centre_of_mass());
     let (mut largest, mut total) = ((0.0_f64, 0.0_f64), Vec3::zero());

@@ -6,7 +6,7 @@ use crate::setup::{BaseAttitude, Drive};
 use crate::stepper::Displacement;
 use crate::world::SystemState;
 use wrasse_dynamics::{
-    BaseMode, Dynamics, JointDrive, Kinematics, PerBody, Robot, State, base_rows, driven_dynamics,
+    BaseMode, Dynamics, JointDrive, Kinematics, Outside, Robot, State, base_rows, driven_dynamics,
     kinematics,
 };
 use wrasse_spatial::{
@@ -49,6 +49,49 @@ impl<T: Real, const J: usize> FreeFlight<'_, T, J> {
         T::apart(Expand { vehicle: self, system, inside_B, t })
     }
 
+    /// The joints' state that a system state means, `t` (s) into the current set-points.
+    #[inline(always)]
+    pub(crate) fn posture(&self, system: &SystemState<J, T>, t: f64) -> State<T, J> {
+        let mut posture = State { q: system.q, v: system.v, ..State::default() };
+        for j in self.robot.joints() {
+            if let Drive::Follow(motion) = &self.drives[j] {
+                let set_point = motion.at(T::from_f64(t));
+                (posture.q[j], posture.v[j]) = (set_point.position, set_point.rate);
+            }
+        }
+        posture
+    }
+
+    /// Pose and twist of the base that a system state means, beside a posture.
+    #[inline(always)]
+    pub(crate) fn moving(
+        &self,
+        posture: &Kinematics<'_, T, J>,
+        system: &SystemState<J, T>,
+        inside_B: Vec3<T>,
+    ) -> State<T, J> {
+        let mut state = *posture.state;
+        // Inertia with joints locked and momentum of the joint rates alone: about Bo, in base axes.
+        let rows = base_rows(posture);
+        let (M, h_of_rates) = (rows.M_bb, rows.momentum_of_rates(&state.v));
+        let R_NB = system.quat_NB.to_matrix();
+        let p_BScm_B = M.centre_of_mass();
+        let linear_B = R_NB.transpose_mul(system.linear);
+        state.V_NB_B = match self.base {
+            BaseAttitude::Held => SpatialVelocity::new(
+                Vec3::zero(),
+                (linear_B - h_of_rates.force) * (T::one() / M.mass),
+            ),
+            BaseAttitude::Free | BaseAttitude::Controlled => {
+                let about_cm = SpatialForce::new(R_NB.transpose_mul(system.angular), linear_B);
+                let inside = SpatialForce::new(inside_B, Vec3::zero());
+                M.velocity_of(&(about_cm.about(-p_BScm_B) - h_of_rates - inside))
+            }
+        };
+        state.X_NB = Pose::new(R_NB, system.p_NScm_N - R_NB * p_BScm_B);
+        state
+    }
+
     /// Accelerations and forces, `t` (s) into the current set-points: with what turns the base beside
     /// its actuator (N·m), what pushes it, and what acts on all bodies, each in the body's axes.
     #[inline(always)]
@@ -57,7 +100,7 @@ impl<T: Real, const J: usize> FreeFlight<'_, T, J> {
         k: &Kinematics<'_, T, J>,
         t: f64,
         (turning_B, thrust_B): (Vec3<T>, SpatialForce<T>),
-        outside: &PerBody<SpatialForce<T>, J>,
+        mut outside: Outside<'_, T, J>,
     ) -> Dynamics<T, J> {
         let drives = core::array::from_fn(|j| match &self.drives[j] {
             Drive::Follow(motion) => {
@@ -65,10 +108,9 @@ impl<T: Real, const J: usize> FreeFlight<'_, T, J> {
             }
             Drive::Effort(tau) => JointDrive::Effort(*tau),
         });
-        let mut on_bodies = *outside;
-        on_bodies.base.torque += self.actuator_torque_B + turning_B;
-        on_bodies.base += thrust_B;
-        driven_dynamics(k, &drives, self.base.mode(), &on_bodies)
+        outside.base.torque += self.actuator_torque_B + turning_B;
+        outside.base += thrust_B;
+        driven_dynamics(k, &drives, self.base.mode(), outside)
     }
 
     /// Accelerations and forces in a state, with nothing bolted on.
@@ -154,33 +196,9 @@ impl<T: Real, const J: usize> Work for Expand<'_, T, J> {
     type Out = State<T, J>;
     #[inline(always)]
     fn run(self) -> State<T, J> {
-        let Self { vehicle, system, inside_B, t } = self;
-        let mut state = State { q: system.q, v: system.v, ..State::default() };
-        for j in vehicle.robot.joints() {
-            if let Drive::Follow(motion) = &vehicle.drives[j] {
-                let set_point = motion.at(T::from_f64(t));
-                (state.q[j], state.v[j]) = (set_point.position, set_point.rate);
-            }
-        }
-        // Inertia with joints locked and momentum of the joint rates alone: about Bo, in base axes.
-        let rows = base_rows(&kinematics(vehicle.robot, &state));
-        let (M, h_of_rates) = (rows.M_bb, rows.momentum_of_rates(&state.v));
-        let R_NB = system.quat_NB.to_matrix();
-        let p_BScm_B = M.centre_of_mass();
-        let linear_B = R_NB.transpose_mul(system.linear);
-        state.V_NB_B = match vehicle.base {
-            BaseAttitude::Held => SpatialVelocity::new(
-                Vec3::zero(),
-                (linear_B - h_of_rates.force) * (T::one() / M.mass),
-            ),
-            BaseAttitude::Free | BaseAttitude::Controlled => {
-                let about_cm = SpatialForce::new(R_NB.transpose_mul(system.angular), linear_B);
-                let inside = SpatialForce::new(inside_B, Vec3::zero());
-                M.velocity_of(&(about_cm.about(-p_BScm_B) - h_of_rates - inside))
-            }
-        };
-        state.X_NB = Pose::new(R_NB, system.p_NScm_N - R_NB * p_BScm_B);
-        state
+        let posture = self.vehicle.posture(self.system, self.t);
+        let bent = kinematics(self.vehicle.robot, &posture);
+        self.vehicle.moving(&bent, self.system, self.inside_B)
     }
 }
 
@@ -197,7 +215,7 @@ impl<T: Real, const J: usize> Work for BareDynamics<'_, T, J> {
     fn run(self) -> Dynamics<T, J> {
         let k = kinematics(self.vehicle.robot, self.state);
         let nothing = (Vec3::zero(), SpatialForce::zero());
-        self.vehicle.dynamics(&k, self.t, nothing, &PerBody::filled(SpatialForce::zero()))
+        self.vehicle.dynamics(&k, self.t, nothing, Outside::nothing())
     }
 }
 
@@ -215,8 +233,11 @@ impl<T: Real, const J: usize> Work for Rates<'_, T, J> {
     fn run(self) -> Flow<J, T> {
         let Self { vehicle, from, d, t } = self;
         let system = from.displaced(d);
-        let state = vehicle.expand(&system, Vec3::zero(), t);
-        let found = vehicle.bare_dynamics(&state, t);
+        let posture = vehicle.posture(&system, t);
+        let bent = kinematics(vehicle.robot, &posture);
+        let state = vehicle.moving(&bent, &system, Vec3::zero());
+        let nothing = (Vec3::zero(), SpatialForce::zero());
+        let found = vehicle.dynamics(&bent.moving_as(&state), t, nothing, Outside::nothing());
         vehicle.flow(&system, d, &state, &found, Vec3::zero())
     }
 }

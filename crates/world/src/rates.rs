@@ -3,7 +3,7 @@
 use crate::flow::Flow;
 use crate::free_flight::FreeFlight;
 use crate::world::{SystemState, World};
-use wrasse_dynamics::{BodyId, Dynamics, Kinematics, PerBody, State, kinematics};
+use wrasse_dynamics::{BodyId, Dynamics, Kinematics, Outside, PerBody, State, kinematics};
 use wrasse_hardware::{GYROS, WHEELS};
 use wrasse_spatial::{SpatialForce, Vec3};
 
@@ -33,7 +33,7 @@ impl<const J: usize> World<J> {
         t: f64,
         acting: &Acting<J>,
     ) -> Dynamics<f64, J> {
-        self.vehicle().dynamics(k, t, (acting.turning_B, acting.thrust_B), &acting.outside)
+        self.vehicle().dynamics(k, t, (acting.turning_B, acting.thrust_B), acting.outside())
     }
 
     /// What wheels and gyros hold beside the bodies, base axes (N·m·s).
@@ -71,13 +71,21 @@ impl<const J: usize> World<J> {
     /// current set-points.
     pub(crate) fn rates(&self, t0: f64, t: f64, d: &Flow<J>) -> Flow<J> {
         let system = self.system.displaced(d);
-        let state = self.expand(&system, t0 + t);
-        let k = kinematics(&self.robot, &state);
+        let vehicle = self.vehicle();
+        let posture = vehicle.posture(&system, t0 + t);
+        let bent = kinematics(&self.robot, &posture);
+        let state = vehicle.moving(&bent, &system, self.inside_B(&system));
+        let k = bent.moving_as(&state);
         let acting = self.acting(&system, &k, t0 + t, self.stretch_middle);
         let found = self.dynamics_at(&k, t0 + t, &acting);
-        let mut flow = self.vehicle().flow(&system, d, &state, &found, acting.turning_B);
+        let mut flow = vehicle.flow(&system, d, &state, &found, acting.turning_B);
         let p_NScm_N = system.p_NScm_N;
-        let (force, torque) = about_centre_of_mass(&k, &acting.outside, p_NScm_N);
+        let mut pushed = (Vec3::zero(), Vec3::zero());
+        if let Some(outside) = &acting.outside {
+            pushed = about_centre_of_mass(&k, outside, p_NScm_N);
+            flow.work.z = power(&k, outside);
+        }
+        let (force, torque) = pushed;
         let (push, turn) = of_thrusters(&k, &acting.thrust_B, p_NScm_N);
         let beside = self.beside_the_centre_of_all(p_NScm_N, t0 + t);
         flow.linear = force + push;
@@ -90,10 +98,6 @@ impl<const J: usize> World<J> {
         flow.from_thrusters = turn + beside.cross(push);
         flow.thruster_impulse = push;
         flow.work.y += state.V_NB_B.power(&acting.thrust_B);
-        let V_NB_B = k.twists();
-        for body in self.robot.bodies() {
-            flow.work.z += V_NB_B[body].power(&acting.outside[body]);
-        }
         flow
     }
 }
@@ -102,7 +106,7 @@ impl<const J: usize> World<J> {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Acting<const J: usize> {
     /// From outside on each body, at its origin, in its axes.
-    outside: PerBody<SpatialForce<f64>, J>,
+    outside: Option<PerBody<SpatialForce<f64>, J>>,
     /// The thrusters on the base, at its origin, in base axes.
     thrust_B: SpatialForce<f64>,
     /// Torque of wheels and gyros on the base, base axes (N·m).
@@ -111,6 +115,12 @@ pub(crate) struct Acting<const J: usize> {
     wheel_torque: [f64; WHEELS],
     /// Of each gimbal (rad/s²).
     pub(crate) gimbal_acceleration: [f64; GYROS],
+}
+
+impl<const J: usize> Acting<J> {
+    fn outside(&self) -> Outside<'_, f64, J> {
+        self.outside.as_ref().map_or_else(Outside::nothing, Outside::from)
+    }
 }
 
 impl<const J: usize> World<J> {
@@ -145,6 +155,15 @@ fn about_centre_of_mass<const J: usize>(
     };
     k.robot.bodies().for_each(&mut add);
     (force, torque)
+}
+
+/// Power (W) of what pushes from outside.
+fn power<const J: usize>(
+    k: &Kinematics<'_, f64, J>,
+    outside: &PerBody<SpatialForce<f64>, J>,
+) -> f64 {
+    let V_NB_B = k.twists();
+    k.robot.bodies().fold(0.0, |sum, body| sum + V_NB_B[body].power(&outside[body]))
 }
 
 /// Force (N) of the thrusters and its torque about the centre of mass (N·m), inertial axes.

@@ -275,12 +275,10 @@ impl<const J: usize> World<J> {
         &self,
         t: f64,
         k: &Kinematics<'_, f64, J>,
-    ) -> PerBody<SpatialForce<f64>, J> {
+    ) -> Option<PerBody<SpatialForce<f64>, J>> {
         let within = self.period_start + self.stretch_middle;
-        match &self.outside {
-            Some(wrench) => wrench(Instant { time: self.period_start + t, within }, k),
-            None => PerBody::filled(SpatialForce::zero()),
-        }
+        let wrench = self.outside.as_ref()?;
+        Some(wrench(Instant { time: self.period_start + t, within }, k))
     }
 
     /// Whether anything pushes from outside.
