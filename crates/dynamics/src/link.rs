@@ -236,3 +236,78 @@ impl<T: Real> Seat<'_, T> {
         self.to_parent(M_L).about(-self.p_PL_P)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    extern crate std;
+    use super::*;
+    use crate::{Robot, State, kinematics};
+    use std::{vec, vec::Vec};
+    use wrasse_spatial::{Quat, Sym3};
+
+    /// Joints one after the other, but for the last, which sits on the first link too.
+    fn robot(kind: JointKind, axes: &[Vec3<f64>]) -> Robot<f64, 6> {
+        let matter = Payload::from_central(2.0, vec3(0.1, 0.2, 0.3), Sym3::diagonal(1.0, 2.0, 2.5));
+        let joints = axes.iter().enumerate().map(|(j, axis)| {
+            let parent = match j {
+                0 => BodyId::Base,
+                _ if j + 1 == axes.len() => BodyId::Link(0),
+                _ => BodyId::Link(j - 1),
+            };
+            let turn = Quat::exp(vec3(0.3, -0.7, 0.2) * (j % 2) as f64);
+            let joint =
+                Joint::new(parent, kind, Pose::from_quat(turn, vec3(0.4, -0.1, 0.7)), *axis);
+            (joint, matter)
+        });
+        Robot::new(matter, &joints.collect::<Vec<_>>()).unwrap()
+    }
+
+    /// Axes across, along, against and all but along each other, in whatever axes a body has.
+    fn axes() -> Vec<Vec<Vec3<f64>>> {
+        let (x, y, z) = (vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0));
+        vec![
+            vec![z, z, z, z, z],
+            vec![x, y, z, -x, y],
+            vec![x, -x, x, -x, x],
+            vec![z, vec3(1e-12, 0.0, 1.0), vec3(1e-7, 0.0, 1.0), vec3(0.0, 1e-5, -1.0), z],
+            vec![vec3(0.3, 0.4, -0.5), vec3(-0.2, 0.9, 0.1), y, vec3(0.6, 0.6, 0.6), x],
+        ]
+    }
+
+    /// Three turns against Rodrigues' formula. Levers of 3 m, a few roundings each. Measured 3.3e-15.
+    #[test]
+    fn bodies_are_where_their_joints_put_them() {
+        for (axes, kind) in axes().into_iter().flat_map(|axes| {
+            [JointKind::Revolute, JointKind::Prismatic].map(|kind| (axes.clone(), kind))
+        }) {
+            let robot = robot(kind, &axes);
+            let q = [0.7, -2.9, 1.6, 0.1, 4.0, 0.0];
+            let state = State { q, ..State::default() };
+            let (k, mut X_NB) = (kinematics(&robot, &state), [Pose::identity(); 6]);
+            for j in robot.joints() {
+                let joint = robot.joint(j);
+                let X_NP = match joint.parent {
+                    BodyId::Base => Pose::identity(),
+                    BodyId::Link(p) => X_NB[p],
+                };
+                X_NB[j] = X_NP * joint.X_PB(q[j]);
+                for found in [k.X_NB(BodyId::Link(j)), k.poses().links[j]] {
+                    let turned = (found.rotation - X_NB[j].rotation).rows.map(Vec3::norm);
+                    let off = (found.translation - X_NB[j].translation).norm()
+                        + turned[0]
+                        + turned[1]
+                        + turned[2];
+                    assert!(off < 1e-14, "joint {j} of {axes:?}: {off:e}");
+                }
+            }
+        }
+    }
+
+    /// What makes it worth while: one turn less for each link but the first of an arm and of a fork.
+    #[test]
+    fn only_the_base_and_a_fork_need_a_third_turn() {
+        let robot = robot(JointKind::Revolute, &axes()[4]);
+        let forked: Vec<bool> = robot.joints().map(|j| robot.link(j).fork.is_some()).collect();
+        assert_eq!(forked, [true, false, false, false, true]);
+    }
+}
