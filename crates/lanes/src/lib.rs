@@ -70,6 +70,18 @@ impl Level {
             _ => what.with::<Baseline>(),
         }
     }
+
+    /// Do something on this level if it is wider than the base level and the processor has it; nothing
+    /// is built for the base level.
+    pub fn choose_wide<W: OnAnyLevel>(self, what: W) -> Option<W::Out> {
+        match self {
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2 if self.is_available() => Some(what.with::<Avx2>()),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 if self.is_available() => Some(what.with::<Avx512>()),
+            _ => None,
+        }
+    }
 }
 
 #[cfg(test)]
@@ -133,5 +145,9 @@ mod tests {
         let lacking = Level::ALL.into_iter().filter(|level| !level.is_available());
         assert!(lacking.into_iter().all(|level| level.choose(Name) == TypeId::of::<Baseline>()));
         assert!(Level::best().is_available() && Level::Base.is_available());
+        for level in Level::ALL {
+            let wide = level.is_available() && level != Level::Base;
+            assert_eq!(level.choose_wide(Name), wide.then(|| level.choose(Name)));
+        }
     }
 }

@@ -81,6 +81,10 @@ impl<I: Instructions, const N: usize, const J: usize> WorldsSideBySide<I, N, J> 
                 }))
             }
         });
+        // Through a pointer, so that gathering is built once.
+        let flows = |of: fn(&World<J>) -> Flow<J>| -> Flow<J, Lanes<N, I>> {
+            SideBySide::side_by_side(&|i| of(worlds[i]))
+        };
         Some(Self {
             robot: Robot::side_by_side(&core::array::from_fn(|i| worlds[i].robot))?,
             limits: first.limits,
@@ -89,8 +93,8 @@ impl<I: Instructions, const N: usize, const J: usize> WorldsSideBySide<I, N, J> 
             step,
             mass: Lanes::from_fn(|i| worlds[i].mass),
             system: SideBySide::side_by_side(&|i| worlds[i].system),
-            carry: SideBySide::side_by_side(&|i| worlds[i].carry),
-            booked: SideBySide::side_by_side(&|i| worlds[i].booked),
+            carry: flows(|world| world.carry),
+            booked: flows(|world| world.booked),
             drives,
             actuator_torque_B: SideBySide::side_by_side(&|i| worlds[i].actuator_torque_B),
             time: first.time,
