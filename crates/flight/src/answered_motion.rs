@@ -18,7 +18,7 @@ pub fn answered_motion<T: Real, const J: usize>(
 ) -> ResolvedMotion<T, J> {
     let posture = Posture::new(robot, &belief.q);
     let matter = posture.matter(robot);
-    let h_links = momentum_of_rates(robot, law, &posture, &matter, qdot);
+    let h_links = momentum_of_rates(robot, &posture, &matter, qdot);
     answered_motion_in(robot, law, (&posture, &matter, &h_links), belief, qdot, qddot)
 }
 
@@ -38,26 +38,26 @@ pub(crate) fn answered_motion_in<T: Real, const J: usize>(
     ResolvedMotion { rate: Resolved { qdot: *qdot, V_NB_B }, qddot: *qddot, A_NB_B }
 }
 
-/// Momentum of the links about the base's origin, base axes, for joint rates on a base at rest; the
-/// angular part only if the law asks for it.
+/// Momentum of the links about the base's origin, base axes, for joint rates on a base at rest.
 #[inline(always)]
 pub(crate) fn momentum_of_rates<T: Real, const J: usize>(
     robot: &Robot<T, J>,
-    law: ArmLaw,
     posture: &Posture<T, J>,
     matter: &Matter<T, J>,
     qdot: &[T; J],
 ) -> SpatialMomentum<T> {
     let V = posture.twists(robot, &SpatialVelocity::zero(), qdot);
-    let mut h = SpatialMomentum::zero();
-    for j in robot.joints() {
-        let (M, V) = (&matter.links[j], &V[j]);
-        match law {
-            ArmLaw::FreeFloating => h += *M * *V,
-            _ => h.force += V.linear * M.mass - M.first_moment.cross(V.angular),
-        }
-    }
-    h
+    robot.joints().fold(SpatialMomentum::zero(), |h, j| h + matter.links[j] * V[j])
+}
+
+/// Angular momentum about the system's centre of mass (N·m·s, base axes) of the same motion, on a
+/// base that does not turn but gives way.
+#[inline(always)]
+pub(crate) fn swing_of<T: Real>(
+    whole: &SpatialInertia<T>,
+    h_links: &SpatialMomentum<T>,
+) -> Vec3<T> {
+    h_links.about(whole.centre_of_mass()).torque
 }
 
 /// Base twist `V_NB_B` by which the momentum is kept, as far as the law asks for that.

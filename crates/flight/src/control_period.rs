@@ -3,7 +3,7 @@
 //! What decides (phases, planning, estimators, steering) stands outside; it says what is asked, and
 //! here it is turned into set-points and torques, for one vehicle or for many side by side.
 
-use crate::answered_motion::{answered_motion_in, answered_twist, momentum_of_rates};
+use crate::answered_motion::{answered_motion_in, answered_twist, momentum_of_rates, swing_of};
 use crate::computer::Setup;
 use crate::door::Axes;
 use crate::law::Measurement;
@@ -64,6 +64,8 @@ pub struct PeriodMemory<T, const J: usize> {
     pub acceleration: [T; J],
     /// Set-points at the start of the coming period.
     pub(crate) now: [SetPoint<T>; J],
+    /// Angular momentum of the joints' motion then, on a base that does not turn (N·m·s, base axes).
+    pub(crate) swing_B: Vec3<T>,
     /// Measured twist of the base less the one that the law believed in (rad/s, m/s).
     pub(crate) surprise: SpatialVelocity<T>,
     /// Whether the sensors were read once.
@@ -114,6 +116,7 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             axes: Axes::Inertial,
             acceleration: [T::zero(); J],
             now: [SetPoint::default(); J],
+            swing_B: Vec3::zero(),
             surprise: SpatialVelocity::zero(),
             started: false,
             coasting: false,
@@ -145,8 +148,19 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             self.now[j] = SetPoint { position: sensed.q[j], rate: sensed.v[j], ..self.now[j] };
         }
         let still = [T::zero(); J];
-        let (_, X_BE) = self.answer(robot, setup, &sensed.v, &still);
+        let (ending, X_BE) = self.answer(robot, setup, &sensed.v, &still);
+        self.swing_B = swing_of(&ending.whole, &ending.h_links);
         self.reference = at_rest(self.belief.X_NB * X_BE);
+    }
+
+    /// The robot has become another one: take what is known of it anew.
+    pub(crate) fn robot_changed(&mut self, robot: &Robot<T, J>) {
+        let believed = self.believed_state();
+        self.belief.h_Scm_N = momentum_of(robot, &believed);
+        let posture = Posture::new(robot, &believed.q);
+        let matter = posture.matter(robot);
+        let h_links = momentum_of_rates(robot, &posture, &matter, &believed.v);
+        self.swing_B = swing_of(&matter.whole, &h_links);
     }
 
     /// Second half: follow what is asked.
@@ -177,11 +191,14 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             };
             self.acceleration[j] = (self.now[j].rate - now[j].rate) / period;
         }
+        let swing_B = swing_of(&whole, &ending.h_links);
+        let reaction_B = (swing_B - self.swing_B) * (T::one() / period);
+        self.swing_B = swing_B;
         self.coasting = matches!(asked, Asked::Coast);
         if self.coasting {
             return Told::nothing(self.now, whole);
         }
-        told(robot, setup, sensed, (&now, &self.now), whole, tool_wrench_E)
+        told(robot, setup, sensed, (&now, &self.now), (whole, reaction_B), tool_wrench_E)
     }
 
     /// The vehicle as the law believes it to be, and to move.
@@ -224,10 +241,10 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
                 let joints = JointUse { gain: *gain, gain_rate: *gain_rate, ..setup.joints };
                 self.follow_tool(robot, setup, &joints);
                 self.correct_joints(robot, began, setup.tuning.period);
-                let (law, qdot) = (setup.assignment.law, &self.motion.rate.qdot);
+                let qdot = &self.motion.rate.qdot;
                 let posture = Posture::new(robot, &self.belief.q);
                 let matter = posture.matter(robot);
-                let h_links = momentum_of_rates(robot, law, &posture, &matter, qdot);
+                let h_links = momentum_of_rates(robot, &posture, &matter, qdot);
                 Ending { whole: matter.whole, h_links }
             }
             Asked::Joints(at) => {
@@ -330,7 +347,7 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         let law = setup.assignment.law;
         let posture = Posture::new(robot, &self.belief.q);
         let matter = posture.matter(robot);
-        let h_links = momentum_of_rates(robot, law, &posture, &matter, qdot);
+        let h_links = momentum_of_rates(robot, &posture, &matter, qdot);
         let at = (&posture, &matter, &h_links);
         self.motion = answered_motion_in(robot, law, at, &self.belief, qdot, qddot);
         (Ending { whole: matter.whole, h_links }, posture.pose(&setup.assignment.tool))

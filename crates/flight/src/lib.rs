@@ -22,7 +22,6 @@ mod feedforward;
 mod guidance;
 mod joint_estimator;
 mod law;
-mod mobility;
 mod navigation;
 mod newton_euler;
 mod period_command;

@@ -4,7 +4,7 @@ use crate::attitude_control::attitude_torque;
 use crate::computed_torque::computed_torque;
 use crate::computer::Setup;
 use crate::feedforward::feedforward_torque;
-use crate::law::ArmLaw;
+use crate::law::{ArmLaw, Feedforward};
 use crate::tool_wrench::against_tool_wrench;
 use wrasse_dynamics::{Robot, State};
 use wrasse_hardware::{SetPoint, SetPointMotion};
@@ -35,14 +35,15 @@ impl<T: Real, const J: usize> Told<T, J> {
 }
 
 /// Torques that carry joints and base from the set-points now to the next ones. They are constant over
-/// the period: those of its middle are right on average.
+/// the period: those of its middle are right on average, and for the base so is `reaction_B`, what the
+/// joints' angular momentum gains over the period per time (N·m), whose impulse is exact.
 #[inline(always)]
 pub(crate) fn told<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     setup: &Setup<T, J>,
     sensed: &State<T, J>,
     (now, next): (&[SetPoint<T>; J], &[SetPoint<T>; J]),
-    M_B: SpatialInertia<T>,
+    (M_B, reaction_B): (SpatialInertia<T>, Vec3<T>),
     tool_wrench_E: Option<&SpatialForce<T>>,
 ) -> Told<T, J> {
     let (tuning, law) = (&setup.tuning, setup.assignment.law);
@@ -57,7 +58,10 @@ pub(crate) fn told<T: Real, const J: usize>(
         ahead.v[j] += gain;
     }
     let mut effort = computed_torque(robot, law, tuning, &ahead, &middle, &acceleration);
-    let reaction_B = feedforward_torque(robot, setup.base.feedforward, &middle);
+    let reaction_B = match setup.base.feedforward {
+        Feedforward::Exact => reaction_B,
+        as_printed => feedforward_torque(robot, as_printed, &middle),
+    };
     let mut ahead_B = SpatialForce::new(reaction_B, Vec3::zero());
     if let Some(F_E) = tool_wrench_E {
         // A base that is held in its place stands as if it were bolted down.

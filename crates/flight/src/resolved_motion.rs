@@ -180,7 +180,7 @@ pub fn task_jacobian<T: Real, const J: usize>(
 ) -> [SpatialVelocity<T>; J] {
     let posture = Posture::new(robot, &belief.q);
     let carried = Carried::new(to.law, robot, &posture);
-    let answer = base_answer(to.law, robot, &posture, &carried, &belief.h_Scm_B());
+    let answer = base_answer(to.law, robot, &carried, &belief.h_Scm_B());
     let law = LawJacobian::new(robot, to, &posture, &answer);
     let R = match to.axes {
         Axes::Inertial => belief.X_NB.rotation,
@@ -212,7 +212,7 @@ pub fn joint_rates<T: Real, const J: usize>(
 ) -> Resolved<T, J> {
     let posture = Posture::new(robot, &belief.q);
     let carried = Carried::new(to.law, robot, &posture);
-    let answer = base_answer(to.law, robot, &posture, &carried, &belief.h_Scm_B());
+    let answer = base_answer(to.law, robot, &carried, &belief.h_Scm_B());
     let law = LawJacobian::new(robot, to, &posture, &answer);
     Solved::new(robot, to, belief, &law, V_NE, joints).rate
 }
@@ -327,14 +327,15 @@ pub(crate) fn resolved_motion_in<T: Real, const J: usize>(
 ) -> ResolvedMotion<T, J> {
     let (law_of_base, h_Scm_B) = (to.law, belief.h_Scm_B());
     let carried = Carried::new(law_of_base, robot, posture);
-    let answer = base_answer(law_of_base, robot, posture, &carried, &h_Scm_B);
+    let answer = base_answer(law_of_base, robot, &carried, &h_Scm_B);
     let law = LawJacobian::new(robot, to, posture, &answer);
     let solved = Solved::new(robot, to, belief, &law, &wanted.V_NE, joints);
     let rate = solved.rate;
     let w_NB_B = rate.V_NB_B.angular;
     let V = posture.twists(robot, &SpatialVelocity::zero(), &rate.qdot);
-    let changing =
-        base_answer_rate(law_of_base, robot, posture, (&answer, &carried), &V, &h_Scm_B, w_NB_B);
+    let known = (&answer, &carried);
+    let moving = (&V, &rate.qdot);
+    let changing = base_answer_rate(law_of_base, robot, posture, known, moving, &h_Scm_B, w_NB_B);
     let rows = row_rates(robot, to, posture, &law, &changing, &V);
     let mut Vdot = in_base_axes(to, belief, &wanted.Vdot_NE);
     if to.axes == Axes::Inertial {

@@ -218,6 +218,7 @@ impl<const N: usize, const J: usize> PeriodMemory<Lanes<N>, J> {
                     acceleration: one(&s.acceleration),
                 }
             }),
+            swing_B: vector(&self.swing_B),
             surprise: twist(&self.surprise),
             axes: self.axes,
             started: self.started,
