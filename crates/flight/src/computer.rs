@@ -111,6 +111,6 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     /// The robot has taken hold of something, or let go: what it is from now on.
     pub fn robot_changed(&mut self, robot: &Robot<f64, J>) {
         self.robot = robot.cast();
-        self.memory.robot_changed(&self.robot);
+        self.memory.robot_changed(&self.robot, self.setup.assignment.law);
     }
 }

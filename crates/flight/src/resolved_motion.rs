@@ -68,7 +68,8 @@ pub struct Belief<T, const J: usize> {
     pub X_NB: Pose<T>,
     /// Joint positions (rad or m).
     pub q: [T; J],
-    /// Total momentum about the system's centre of mass, inertial axes (N·m·s, N·s).
+    /// Total momentum about the system's centre of mass, inertial axes (N·m·s, N·s); only its linear part
+    /// counts where the attitude is held, and nothing where the base is bolted down.
     pub h_Scm_N: SpatialMomentum<T>,
 }
 
