@@ -1,7 +1,8 @@
 //! How the base is believed to answer joint motion that is given.
 
 use crate::law::ArmLaw;
-use crate::posture::{Matter, Posture};
+use crate::locked::Locked;
+use crate::posture::Posture;
 use crate::resolved_motion::{Belief, Resolved, ResolvedMotion};
 use wrasse_dynamics::{BodyId, Robot};
 use wrasse_spatial::{
@@ -17,65 +18,49 @@ pub fn answered_motion<T: Real, const J: usize>(
     qddot: &[T; J],
 ) -> ResolvedMotion<T, J> {
     let posture = Posture::new(robot, &belief.q);
-    let matter = posture.matter(robot);
-    let h_links = momentum_of_rates(robot, law, &posture, &matter, qdot);
-    answered_motion_in(robot, law, (&posture, &matter, &h_links), belief, qdot, qddot)
+    answered_motion_in(
+        robot,
+        law,
+        &posture,
+        &Locked::new(robot, &belief.q, qdot),
+        belief,
+        qdot,
+        qddot,
+    )
 }
 
-/// The same in a posture that is at hand, with the momentum of the links relative to the base.
+/// The same in a posture that is at hand, with what the joints' motion adds to the locked system.
 #[inline(always)]
 pub(crate) fn answered_motion_in<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     law: ArmLaw,
-    (posture, matter, h_links): (&Posture<T, J>, &Matter<T, J>, &SpatialMomentum<T>),
+    posture: &Posture<T, J>,
+    locked: &Locked<T>,
     belief: &Belief<T, J>,
     qdot: &[T; J],
     qddot: &[T; J],
 ) -> ResolvedMotion<T, J> {
-    let V_NB_B = answered_twist(law, &matter.whole, &belief.h_Scm_B(), h_links);
-    let F = posture.forces(robot, matter, &V_NB_B, qdot, qddot);
-    let A_NB_B = recoil(law, &matter.whole, &on_base(robot, &V_NB_B, &F));
+    let V_NB_B = answered_twist(law, locked, &belief.h_Scm_B());
+    let F = posture.forces(robot, &posture.matter(robot), &V_NB_B, qdot, qddot);
+    let A_NB_B = recoil(law, &locked.M, &on_base(robot, &V_NB_B, &F));
     ResolvedMotion { rate: Resolved { qdot: *qdot, V_NB_B }, qddot: *qddot, A_NB_B }
-}
-
-/// Momentum of the links about the base's origin, base axes, for joint rates on a base at rest; the
-/// angular part only if the law asks for it.
-#[inline(always)]
-pub(crate) fn momentum_of_rates<T: Real, const J: usize>(
-    robot: &Robot<T, J>,
-    law: ArmLaw,
-    posture: &Posture<T, J>,
-    matter: &Matter<T, J>,
-    qdot: &[T; J],
-) -> SpatialMomentum<T> {
-    let V = posture.twists(robot, &SpatialVelocity::zero(), qdot);
-    let mut h = SpatialMomentum::zero();
-    for j in robot.joints() {
-        let (M, V) = (&matter.links[j], &V[j]);
-        match law {
-            ArmLaw::FreeFloating => h += *M * *V,
-            _ => h.force += V.linear * M.mass - M.first_moment.cross(V.angular),
-        }
-    }
-    h
 }
 
 /// Base twist `V_NB_B` by which the momentum is kept, as far as the law asks for that.
 #[inline(always)]
 pub(crate) fn answered_twist<T: Real>(
     law: ArmLaw,
-    whole: &SpatialInertia<T>,
+    locked: &Locked<T>,
     h_Scm_B: &SpatialMomentum<T>,
-    h_links: &SpatialMomentum<T>,
 ) -> SpatialVelocity<T> {
     match law {
         ArmLaw::Terrestrial => SpatialVelocity::zero(),
         ArmLaw::AttitudeHeld => {
-            let push = h_Scm_B.force - h_links.force;
-            SpatialVelocity::new(Vec3::zero(), push * (T::one() / whole.mass))
+            let push = h_Scm_B.force - locked.h.force;
+            SpatialVelocity::new(Vec3::zero(), push * (T::one() / locked.M.mass))
         }
         ArmLaw::FreeFloating => {
-            whole.velocity_of(&(h_Scm_B.about(-whole.centre_of_mass()) - *h_links))
+            locked.M.velocity_of(&(h_Scm_B.about(-locked.M.centre_of_mass()) - locked.h))
         }
     }
 }

@@ -2,7 +2,6 @@
 //! momentum alone causes, and how they change. All about the base's origin Bo, in base axes.
 
 use crate::law::ArmLaw;
-use crate::mobility::Mobility;
 use crate::posture::Posture;
 use wrasse_dynamics::{BodyId, Robot};
 use wrasse_spatial::{
@@ -39,67 +38,43 @@ impl<T: Real, const J: usize> BaseAnswer<T, J> {
 /// first moments count.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Carried<T, const J: usize> {
-    /// Each link alone.
-    alone: [SpatialInertia<T>; J],
     links: [SpatialInertia<T>; J],
     base: SpatialInertia<T>,
+    /// Momentum for unit rate of each joint, the base at rest; the linear part, where only that counts.
+    momenta: [SpatialMomentum<T>; J],
 }
 
 impl<T: Real, const J: usize> Carried<T, J> {
-    /// In a posture, as far as the law asks for it.
+    /// In a posture, as far as the law asks for it: tip to base, what each link adds.
     #[inline(always)]
     pub(crate) fn new(law: ArmLaw, robot: &Robot<T, J>, posture: &Posture<T, J>) -> Self {
         let none = [SpatialInertia::zero(); J];
-        let mut carried = Self { alone: none, links: none, base: *robot.inertia(BodyId::Base) };
-        for j in robot.joints() {
-            carried.alone[j] = match law {
-                ArmLaw::Terrestrial => SpatialInertia::zero(),
-                ArmLaw::AttitudeHeld => {
-                    let (mass, first_moment) = posture.first_moment(robot, j);
-                    SpatialInertia { mass, first_moment, rotational: Sym3::zero() }
-                }
-                ArmLaw::FreeFloating => posture.inertia(robot, j),
-            };
+        let base = *robot.inertia(BodyId::Base);
+        let mut carried = Self { links: none, base, momenta: [SpatialMomentum::zero(); J] };
+        if law == ArmLaw::Terrestrial {
+            return carried;
         }
-        carried.add_up(law, robot);
-        carried
-    }
-    /// How that changes while the links move with the twists `V` relative to the base.
-    #[inline(always)]
-    fn rate(&self, law: ArmLaw, robot: &Robot<T, J>, V: &[SpatialVelocity<T>; J]) -> Self {
-        let none = [SpatialInertia::zero(); J];
-        let mut rate = Self { alone: none, links: none, base: SpatialInertia::zero() };
-        for j in robot.joints() {
-            let M = &self.alone[j];
-            rate.alone[j] = match law {
-                ArmLaw::FreeFloating => inertia_rate(M, &V[j]),
-                _ => SpatialInertia {
-                    first_moment: V[j].linear * M.mass + V[j].angular.cross(M.first_moment),
-                    ..SpatialInertia::zero()
-                },
-            };
-        }
-        rate.add_up(law, robot);
-        rate
-    }
-    /// Tip to base: what each link adds to all that its joint carries.
-    #[inline(always)]
-    fn add_up(&mut self, law: ArmLaw, robot: &Robot<T, J>) {
-        let add = |to: &mut SpatialInertia<T>, M: &SpatialInertia<T>| {
-            to.mass += M.mass;
-            to.first_moment += M.first_moment;
-            if law == ArmLaw::FreeFloating {
-                to.rotational += M.rotational;
-            }
-        };
         for j in robot.joints().rev() {
-            add(&mut self.links[j], &self.alone[j]);
-            let own = self.links[j];
-            match robot.joint(j).parent {
-                BodyId::Link(p) if p < J => add(&mut self.links[p], &own),
-                _ => add(&mut self.base, &own),
+            let (S, mut M) = (&posture.S[j], carried.links[j]);
+            if law == ArmLaw::FreeFloating {
+                M += posture.inertia(robot, j);
+                carried.momenta[j] = M * *S;
+            } else {
+                let (mass, first_moment) = posture.first_moment(robot, j);
+                (M.mass, M.first_moment) = (M.mass + mass, M.first_moment + first_moment);
+                carried.momenta[j].force = S.linear * M.mass - M.first_moment.cross(S.angular);
+            }
+            carried.links[j] = M;
+            let all = match robot.joint(j).parent {
+                BodyId::Link(p) if p < J => &mut carried.links[p],
+                _ => &mut carried.base,
+            };
+            (all.mass, all.first_moment) = (all.mass + M.mass, all.first_moment + M.first_moment);
+            if law == ArmLaw::FreeFloating {
+                all.rotational += M.rotational;
             }
         }
+        carried
     }
 }
 
@@ -109,7 +84,6 @@ impl<T: Real, const J: usize> Carried<T, J> {
 pub(crate) fn base_answer<T: Real, const J: usize>(
     law: ArmLaw,
     robot: &Robot<T, J>,
-    posture: &Posture<T, J>,
     carried: &Carried<T, J>,
     h_Scm_B: &SpatialMomentum<T>,
 ) -> BaseAnswer<T, J> {
@@ -119,70 +93,108 @@ pub(crate) fn base_answer<T: Real, const J: usize>(
         ArmLaw::AttitudeHeld => {
             let per_mass = T::one() / carried.base.mass;
             for j in robot.joints() {
-                let push = force_of_rate(&carried.links[j], &posture.S[j]);
-                answer.per_rate[j].linear = push * -per_mass;
+                answer.per_rate[j].linear = carried.momenta[j].force * -per_mass;
             }
             answer.drift.linear = h_Scm_B.force * per_mass;
         }
         ArmLaw::FreeFloating => {
-            let mobility = Mobility::of(&carried.base);
+            let mobility = carried.base.inverse();
             for j in robot.joints() {
-                answer.per_rate[j] = -mobility.times(&(carried.links[j] * posture.S[j]));
+                answer.per_rate[j] = -mobility.velocity_of(&carried.momenta[j]);
             }
-            answer.drift = mobility.times(&h_Scm_B.about(-mobility.p_cm));
+            answer.drift = mobility.velocity_of(&h_Scm_B.about(-mobility.p_cm));
         }
     }
     answer
 }
 
-/// Linear momentum for unit rate of a joint with all that it carries.
-#[inline(always)]
-fn force_of_rate<T: Real>(M: &SpatialInertia<T>, S: &SpatialVelocity<T>) -> Vec3<T> {
-    S.linear * M.mass - M.first_moment.cross(S.angular)
-}
-
-/// Time derivative of the base's answer in base axes, while the links move with the twists `V`
-/// relative to the base, and the base turns at `w_NB_B` (rad/s).
+/// Time derivative of the base's answer in base axes, while the joints move at `qdot` and so the links
+/// with the twists `V` relative to the base, and the base turns at `w_NB_B` (rad/s).
 #[inline(always)]
 pub(crate) fn base_answer_rate<T: Real, const J: usize>(
     law: ArmLaw,
     robot: &Robot<T, J>,
     posture: &Posture<T, J>,
     (answer, carried): (&BaseAnswer<T, J>, &Carried<T, J>),
-    V: &[SpatialVelocity<T>; J],
+    (V, qdot): (&[SpatialVelocity<T>; J], &[T; J]),
     h_Scm_B: &SpatialMomentum<T>,
     w_NB_B: Vec3<T>,
 ) -> BaseAnswer<T, J> {
-    let mut rate = BaseAnswer::none();
     // The momentum stands still in inertial axes.
     let hdot = SpatialForce::new(h_Scm_B.torque.cross(w_NB_B), h_Scm_B.force.cross(w_NB_B));
-    let changing = carried.rate(law, robot, V);
     match law {
-        ArmLaw::Terrestrial => {}
-        ArmLaw::AttitudeHeld => {
-            let per_mass = T::one() / carried.base.mass;
-            for j in robot.joints() {
-                let push = force_of_rate(&carried.links[j], &V[j].cross(&posture.S[j]))
-                    - changing.links[j].first_moment.cross(posture.S[j].angular);
-                rate.per_rate[j].linear = push * -per_mass;
-            }
-            rate.drift.linear = hdot.force * per_mass;
-        }
+        ArmLaw::Terrestrial => BaseAnswer::none(),
+        ArmLaw::AttitudeHeld => held_rate(robot, posture, carried, (V, qdot), hdot.force),
         ArmLaw::FreeFloating => {
-            let mobility = Mobility::of(&carried.base);
+            let (pushes, changing) = momentum_rates(robot, posture, carried, (V, qdot));
+            let mobility = carried.base.inverse();
+            let mut rate = BaseAnswer::none();
             for j in robot.joints() {
-                let S = posture.S[j];
-                let of_joint = carried.links[j] * V[j].cross(&S) + changing.links[j] * S;
-                let of_base = changing.base * answer.per_rate[j];
-                rate.per_rate[j] = -mobility.times(&(of_joint + of_base));
+                let push = pushes[j] + changing * answer.per_rate[j];
+                rate.per_rate[j] = -mobility.velocity_of(&push);
             }
-            let pdot_cm = changing.base.first_moment * (T::one() / carried.base.mass);
+            let pdot_cm = changing.first_moment * mobility.per_mass;
             let mut push = hdot.about(-mobility.p_cm);
             push.torque += pdot_cm.cross(h_Scm_B.force);
-            rate.drift = mobility.times(&(push - changing.base * answer.drift));
+            rate.drift = mobility.velocity_of(&(push - changing * answer.drift));
+            rate
         }
     }
+}
+
+/// The same where the base does not turn: only linear momenta count.
+///
+/// The momentum of a joint turns with what the joint carries; behind it, what other joints carry gains
+/// the first moment that their momenta are.
+#[inline(always)]
+fn held_rate<T: Real, const J: usize>(
+    robot: &Robot<T, J>,
+    posture: &Posture<T, J>,
+    carried: &Carried<T, J>,
+    (V, qdot): (&[SpatialVelocity<T>; J], &[T; J]),
+    hdot: Vec3<T>,
+) -> BaseAnswer<T, J> {
+    let mut rate = BaseAnswer::none();
+    let per_mass = T::one() / carried.base.mass;
+    let mut behind = [Vec3::zero(); J];
+    for j in robot.joints().rev() {
+        let push = carried.momenta[j].force;
+        let change = V[j].angular.cross(push) + posture.S[j].angular.cross(behind[j]);
+        rate.per_rate[j].linear = change * -per_mass;
+        let all = behind[j] + push * qdot[j];
+        if let BodyId::Link(p) = robot.joint(j).parent
+            && p < J
+        {
+            behind[p] += all;
+        }
+    }
+    rate.drift.linear = hdot * per_mass;
     rate
+}
+
+/// Time derivatives of the momenta for unit rate of the joints, and of the inertia of the whole:
+/// `d(M S)/dt = V ×* (M S) + D S`, where D is how the inertia that a joint carries changes as seen from
+/// its own link: by what the joints behind it do.
+#[inline(always)]
+fn momentum_rates<T: Real, const J: usize>(
+    robot: &Robot<T, J>,
+    posture: &Posture<T, J>,
+    carried: &Carried<T, J>,
+    (V, qdot): (&[SpatialVelocity<T>; J], &[T; J]),
+) -> ([SpatialForce<T>; J], SpatialInertia<T>) {
+    let mut rate = [SpatialForce::zero(); J];
+    let mut base = SpatialInertia::zero();
+    let mut behind = [base; J];
+    for j in robot.joints().rev() {
+        let (S, own) = (&posture.S[j], behind[j]);
+        rate[j] = V[j].cross_force(&carried.momenta[j]) + own * *S;
+        let all = own + inertia_rate(&carried.links[j], &(*S * qdot[j]));
+        match robot.joint(j).parent {
+            BodyId::Link(p) if p < J => behind[p] += all,
+            _ => base += all,
+        }
+    }
+    (rate, base)
 }
 
 /// `V ×* M - M V ×`: how an inertia about a fixed point changes as its body moves. The mass stays.

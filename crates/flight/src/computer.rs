@@ -1,7 +1,7 @@
 //! The flight computer: which phase, where the tool should be, what the actuators are told.
 
 use crate::base_control::{BaseControl, BaseControlSetup};
-use crate::control_period::{Asked, PeriodMemory, momentum_of};
+use crate::control_period::{Asked, PeriodMemory};
 use crate::door::{Axes, Command, Sensed};
 use crate::guidance::{Guidance, Guided};
 use crate::law::{Measurement, Tuning};
@@ -111,7 +111,6 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     /// The robot has taken hold of something, or let go: what it is from now on.
     pub fn robot_changed(&mut self, robot: &Robot<f64, J>) {
         self.robot = robot.cast();
-        let believed = self.believed_state();
-        self.memory.belief.h_Scm_N = momentum_of(&self.robot, &believed);
+        self.memory.robot_changed(&self.robot, self.setup.assignment.law);
     }
 }

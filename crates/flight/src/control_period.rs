@@ -3,11 +3,11 @@
 //! What decides (phases, planning, estimators, steering) stands outside; it says what is asked, and
 //! here it is turned into set-points and torques, for one vehicle or for many side by side.
 
-use crate::answered_motion::{answered_motion_in, answered_twist, momentum_of_rates};
+use crate::answered_motion::{answered_motion_in, answered_twist};
 use crate::computer::Setup;
 use crate::door::Axes;
-use crate::law::Measurement;
-use crate::newton_euler::total_momentum;
+use crate::law::{ArmLaw, Measurement};
+use crate::locked::{Locked, momentum_for};
 use crate::period_command::{Told, told};
 use crate::posture::Posture;
 use crate::resolved_motion::{
@@ -17,7 +17,7 @@ use crate::trajectory::{JointSetPoint, ToolMotion};
 use wrasse_dynamics::{Robot, State};
 use wrasse_hardware::SetPoint;
 use wrasse_spatial::{
-    Mat3, Pose, Quat, Real, SpatialForce, SpatialInertia, SpatialMomentum, SpatialVelocity, Vec3,
+    Mat3, Pose, Quat, Real, SpatialForce, SpatialMomentum, SpatialVelocity, Vec3,
 };
 
 /// What is asked of the arm at the end of a period.
@@ -64,6 +64,8 @@ pub struct PeriodMemory<T, const J: usize> {
     pub acceleration: [T; J],
     /// Set-points at the start of the coming period.
     pub(crate) now: [SetPoint<T>; J],
+    /// Angular momentum of the joints' motion then, on a base that does not turn (N·m·s, base axes).
+    pub(crate) swing_B: Vec3<T>,
     /// Measured twist of the base less the one that the law believed in (rad/s, m/s).
     pub(crate) surprise: SpatialVelocity<T>,
     /// Whether the sensors were read once.
@@ -114,6 +116,7 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             axes: Axes::Inertial,
             acceleration: [T::zero(); J],
             now: [SetPoint::default(); J],
+            swing_B: Vec3::zero(),
             surprise: SpatialVelocity::zero(),
             started: false,
             coasting: false,
@@ -125,7 +128,7 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         let measured = setup.measurement == Measurement::Base;
         if measured || !self.started {
             self.belief.X_NB = sensed.X_NB;
-            self.belief.h_Scm_N = momentum_of(robot, sensed);
+            self.belief.h_Scm_N = momentum_for(setup.assignment.law, robot, sensed);
         }
         if !self.started || self.coasting {
             self.start_from(robot, setup, sensed);
@@ -145,8 +148,16 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             self.now[j] = SetPoint { position: sensed.q[j], rate: sensed.v[j], ..self.now[j] };
         }
         let still = [T::zero(); J];
-        let (_, X_BE) = self.answer(robot, setup, &sensed.v, &still);
+        let (locked, X_BE) = self.answer(robot, setup, &sensed.v, &still);
+        self.swing_B = locked.swing_B();
         self.reference = at_rest(self.belief.X_NB * X_BE);
+    }
+
+    /// The robot has become another one: take what is known of it anew.
+    pub(crate) fn robot_changed(&mut self, robot: &Robot<T, J>, law: ArmLaw) {
+        let believed = self.believed_state();
+        self.belief.h_Scm_N = momentum_for(law, robot, &believed);
+        self.swing_B = Locked::new(robot, &believed.q, &believed.v).swing_B();
     }
 
     /// Second half: follow what is asked.
@@ -162,12 +173,11 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         let (from, began) = (self.belief, self.motion);
         let quat_NB = Quat::from_matrix(&from.X_NB.rotation);
         self.predict(robot, &quat_NB, period);
-        let ending = self.follow(robot, setup, asked, (&from, &began));
+        let locked = self.follow(robot, setup, asked, (&from, &began));
         self.correct_base(&quat_NB, (&from, &began), period);
         // The joints are not quite where they were when the base's answer was worked out.
         let (law, h_B) = (setup.assignment.law, self.belief.h_Scm_B());
-        let whole = ending.whole;
-        self.motion.rate.V_NB_B = answered_twist(law, &whole, &h_B, &ending.h_links);
+        self.motion.rate.V_NB_B = answered_twist(law, &locked, &h_B);
         let now = self.now;
         for j in robot.joints() {
             self.now[j] = SetPoint {
@@ -177,11 +187,14 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             };
             self.acceleration[j] = (self.now[j].rate - now[j].rate) / period;
         }
+        let swing_B = locked.swing_B();
+        let reaction_B = (swing_B - self.swing_B) * (T::one() / period);
+        self.swing_B = swing_B;
         self.coasting = matches!(asked, Asked::Coast);
         if self.coasting {
-            return Told::nothing(self.now, whole);
+            return Told::nothing(self.now, locked.M);
         }
-        told(robot, setup, sensed, (&now, &self.now), whole, tool_wrench_E)
+        told(robot, setup, sensed, (&now, &self.now), (locked.M, reaction_B), tool_wrench_E)
     }
 
     /// The vehicle as the law believes it to be, and to move.
@@ -216,7 +229,7 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         setup: &Setup<T, J>,
         asked: &Asked<T, J>,
         began: (&Belief<T, J>, &ResolvedMotion<T, J>),
-    ) -> Ending<T> {
+    ) -> Locked<T> {
         let still = [T::zero(); J];
         match asked {
             Asked::Tool { reference, axes, gain, gain_rate } => {
@@ -224,11 +237,7 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
                 let joints = JointUse { gain: *gain, gain_rate: *gain_rate, ..setup.joints };
                 self.follow_tool(robot, setup, &joints);
                 self.correct_joints(robot, began, setup.tuning.period);
-                let (law, qdot) = (setup.assignment.law, &self.motion.rate.qdot);
-                let posture = Posture::new(robot, &self.belief.q);
-                let matter = posture.matter(robot);
-                let h_links = momentum_of_rates(robot, law, &posture, &matter, qdot);
-                Ending { whole: matter.whole, h_links }
+                Locked::new(robot, &self.belief.q, &self.motion.rate.qdot)
             }
             Asked::Joints(at) => {
                 self.belief.q = at.q;
@@ -326,14 +335,12 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         setup: &Setup<T, J>,
         qdot: &[T; J],
         qddot: &[T; J],
-    ) -> (Ending<T>, Pose<T>) {
+    ) -> (Locked<T>, Pose<T>) {
         let law = setup.assignment.law;
         let posture = Posture::new(robot, &self.belief.q);
-        let matter = posture.matter(robot);
-        let h_links = momentum_of_rates(robot, law, &posture, &matter, qdot);
-        let at = (&posture, &matter, &h_links);
-        self.motion = answered_motion_in(robot, law, at, &self.belief, qdot, qddot);
-        (Ending { whole: matter.whole, h_links }, posture.pose(&setup.assignment.tool))
+        let locked = Locked::new(robot, &self.belief.q, qdot);
+        self.motion = answered_motion_in(robot, law, &posture, &locked, &self.belief, qdot, qddot);
+        (locked, posture.pose(&setup.assignment.tool))
     }
 
     /// The same, and the tool's reference stays where that brings it.
@@ -344,37 +351,18 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         setup: &Setup<T, J>,
         qdot: &[T; J],
         qddot: &[T; J],
-    ) -> Ending<T> {
-        let (ending, X_BE) = self.answer(robot, setup, qdot, qddot);
+    ) -> Locked<T> {
+        let (locked, X_BE) = self.answer(robot, setup, qdot, qddot);
         self.axes = Axes::Inertial;
         self.reference = at_rest(self.belief.X_NB * X_BE);
-        ending
+        locked
     }
-}
-
-/// What the base answers at the end of a period.
-struct Ending<T> {
-    /// Inertia of the whole system, joints locked.
-    whole: SpatialInertia<T>,
-    /// Momentum of the links relative to the base, about its origin.
-    h_links: SpatialMomentum<T>,
 }
 
 /// A tool that stays where it is.
 pub(crate) fn at_rest<T: Real>(X_NE: Pose<T>) -> ToolMotion<T> {
     let zero = SpatialVelocity::zero();
     ToolMotion { X_NE, V_NE_N: zero, Vdot_NE_N: zero }
-}
-
-/// Total momentum about the system's centre of mass, inertial axes.
-pub(crate) fn momentum_of<T: Real, const J: usize>(
-    robot: &Robot<T, J>,
-    state: &State<T, J>,
-) -> SpatialMomentum<T> {
-    let sum = total_momentum(robot, &state.V_NB_B, &state.q, &state.v);
-    let h = sum.F.about(sum.first_moment * (T::one() / sum.mass));
-    let R_NB = &state.X_NB.rotation;
-    SpatialMomentum::new(*R_NB * h.torque, *R_NB * h.force)
 }
 
 /// A pose after a period of motion with a mean twist.

@@ -33,12 +33,65 @@ impl<T: Real> Factors<T> {
                 f.L[i][j] = scaled[j] * f.inverse_pivots[j];
                 pivot -= f.L[i][j] * scaled[j];
             }
-            f.pivots[i] = pivot;
-            let positive = T::zero().lt(pivot);
-            let divisor = T::select(positive, pivot, T::one());
-            f.inverse_pivots[i] = T::select(positive, T::one() / divisor, T::zero());
+            f.set_pivot(i, pivot);
         }
         f
+    }
+
+    /// The same of `J Jᵀ`, from the columns of J, whose rows are made orthogonal one after the other
+    /// (modified Gram-Schmidt). The round-off of the product would hide the small pivots: in single
+    /// precision by several times the floor of the damping.
+    ///
+    /// Rows before the first one that counts have the pivot one.
+    #[inline(always)]
+    fn of_columns(columns: &mut [[T; 6]], first: usize) -> Self {
+        let one = [T::one(); 6];
+        let mut f = Self { L: [[T::zero(); 6]; 6], pivots: one, inverse_pivots: one };
+        let first = first.min(5);
+        let mut share = [T::zero(); 6];
+        for column in columns.iter() {
+            (0..6).for_each(|i| share[i] += column[first] * column[i]);
+        }
+        for k in first..5 {
+            f.set_pivot(k, share[k]);
+            (0..6).for_each(|i| share[i] = share[i] * f.inverse_pivots[k]);
+            (k + 1..6).for_each(|i| f.L[i][k] = share[i]);
+            let mut products = [T::zero(); 6];
+            for column in columns.iter_mut() {
+                // This row out of those behind it; those before it are zero by now.
+                let own = column[k];
+                (0..6).for_each(|i| column[i] -= share[i] * own);
+                (0..6).for_each(|i| products[i] += column[k + 1] * column[i]);
+            }
+            share = products;
+        }
+        f.set_pivot(5, share[5]);
+        f
+    }
+
+    /// The lower triangle of the matrix, with something added to the diagonal.
+    #[inline(always)]
+    fn plus(&self, diagonal: T) -> [[T; 6]; 6] {
+        let mut A = [[T::zero(); 6]; 6];
+        for i in 0..6 {
+            let mut scaled = [T::zero(); 6];
+            A[i][i] = self.pivots[i] + diagonal;
+            for j in 0..i {
+                scaled[j] = self.L[i][j] * self.pivots[j];
+                A[i][j] = scaled[j];
+                (0..j).for_each(|k| A[i][j] += scaled[k] * self.L[j][k]);
+                A[i][i] += scaled[j] * self.L[i][j];
+            }
+        }
+        A
+    }
+
+    #[inline(always)]
+    fn set_pivot(&mut self, i: usize, pivot: T) {
+        self.pivots[i] = pivot;
+        let positive = T::zero().lt(pivot);
+        let divisor = T::select(positive, pivot, T::one());
+        self.inverse_pivots[i] = T::select(positive, T::one() / divisor, T::zero());
     }
 
     /// The smallest pivot (the first that is not positive stays), and the direction z in which the
@@ -98,19 +151,18 @@ pub(crate) struct DampedInverse<T> {
 }
 
 impl<T: Real> DampedInverse<T> {
-    /// Of a symmetric matrix of which the lower triangle is given, damped below this singular value.
+    /// From the columns of J, of which the rows from `first` on count; damped below this singular value.
     #[inline(always)]
-    pub(crate) fn new(JJt: &[[T; 6]; 6], damped_below: T) -> Self {
-        let (pivot, weakest) = Factors::new(JJt).smallest();
+    pub(crate) fn new(columns: &mut [[T; 6]], first: usize, damped_below: T) -> Self {
+        let bare = Factors::of_columns(columns, first);
+        let (pivot, weakest) = bare.smallest();
         let floor = damped_below * damped_below;
         let lack = T::one() - pivot / floor;
         let held = lack.max(T::zero()).min(T::one());
         let damping = floor * held * held;
-        let mut A = *JJt;
-        (0..6).for_each(|r| A[r][r] += damping);
         let steady = lack.lt(T::one());
         let slope = T::select(steady, T::from_f64(-2.0) * held, T::zero());
-        Self { damped: Factors::new(&A), weakest, slope }
+        Self { damped: Factors::new(&bare.plus(damping)), weakest, slope }
     }
     /// `(J Jᵀ + λ² 1)⁻¹ b`.
     #[inline(always)]

@@ -22,7 +22,7 @@ mod feedforward;
 mod guidance;
 mod joint_estimator;
 mod law;
-mod mobility;
+mod locked;
 mod navigation;
 mod newton_euler;
 mod period_command;

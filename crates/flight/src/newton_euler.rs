@@ -3,12 +3,12 @@
 
 use wrasse_dynamics::{BodyId, Joint, JointKind, Robot};
 use wrasse_hardware::SetPoint;
-use wrasse_spatial::{Pose, Real, SpatialForce, SpatialInertia, SpatialVelocity, Vec3};
+use wrasse_spatial::{Pose, Real, SpatialForce, SpatialInertia, Vec3};
 
 /// What the bodies sum up to, about the base's origin in base axes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sum<T> {
-    /// Momentum (N·m·s, N·s), or the force that a motion takes (N·m, N).
+    /// Force that the motion takes (N·m, N).
     pub(crate) F: SpatialForce<T>,
     /// Mass (kg).
     pub(crate) mass: T,
@@ -50,27 +50,6 @@ fn at_base<T: Real, const J: usize>(
         }
     }
     sum
-}
-
-/// Total momentum about the base's origin, in base axes.
-#[inline(always)]
-pub(crate) fn total_momentum<T: Real, const J: usize>(
-    robot: &Robot<T, J>,
-    V_NB_B: &SpatialVelocity<T>,
-    q: &[T; J],
-    qdot: &[T; J],
-) -> Sum<T> {
-    let M = robot.inertia(BodyId::Base);
-    let base = Sum::new(M, *M * *V_NB_B);
-    let (mut X_PL, mut links) = ([Pose::identity(); J], [base; J]);
-    let mut V = [*V_NB_B; J];
-    for j in robot.joints() {
-        let (joint, M) = (robot.joint(j), robot.inertia(BodyId::Link(j)));
-        X_PL[j] = joint.X_PB(q[j]);
-        V[j] = X_PL[j].velocity_to_child(&of_parent(joint, V_NB_B, &V)) + joint.velocity(qdot[j]);
-        links[j] = Sum::new(M, *M * V[j]);
-    }
-    at_base(robot, &X_PL, base, &mut links)
 }
 
 /// How a link turns and how its origin accelerates, in its own axes (rad/s, rad/s², m/s²).

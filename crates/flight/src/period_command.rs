@@ -4,8 +4,9 @@ use crate::attitude_control::attitude_torque;
 use crate::computed_torque::computed_torque;
 use crate::computer::Setup;
 use crate::feedforward::feedforward_torque;
-use crate::law::ArmLaw;
+use crate::law::{ArmLaw, Feedforward};
 use crate::tool_wrench::against_tool_wrench;
+use core::array;
 use wrasse_dynamics::{Robot, State};
 use wrasse_hardware::{SetPoint, SetPointMotion};
 use wrasse_spatial::{Quat, Real, SpatialForce, SpatialInertia, Vec3};
@@ -35,29 +36,34 @@ impl<T: Real, const J: usize> Told<T, J> {
 }
 
 /// Torques that carry joints and base from the set-points now to the next ones. They are constant over
-/// the period: those of its middle are right on average.
+/// the period: those of its middle are right on average, and for the base so is `reaction_B`, what the
+/// joints' angular momentum gains over the period per time (N·m), whose impulse is exact.
 #[inline(always)]
 pub(crate) fn told<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     setup: &Setup<T, J>,
     sensed: &State<T, J>,
     (now, next): (&[SetPoint<T>; J], &[SetPoint<T>; J]),
-    M_B: SpatialInertia<T>,
+    (M_B, reaction_B): (SpatialInertia<T>, Vec3<T>),
     tool_wrench_E: Option<&SpatialForce<T>>,
 ) -> Told<T, J> {
     let (tuning, law) = (&setup.tuning, setup.assignment.law);
     let (period, half) = (tuning.period, T::from_f64(0.5));
+    let at_middle = |j: usize| SetPointMotion::between(now[j], next[j], period).at(period * half);
     let (mut middle, mut ahead) = (*now, *sensed);
     let mut acceleration = [T::zero(); J];
     for j in robot.joints() {
-        middle[j] = SetPointMotion::between(now[j], next[j], period).at(period * half);
+        middle[j] = at_middle(j);
         acceleration[j] = (next[j].rate - now[j].rate) / period;
         let gain = acceleration[j] * period * half;
         ahead.q[j] += (sensed.v[j] + gain * half) * period * half;
         ahead.v[j] += gain;
     }
     let mut effort = computed_torque(robot, law, tuning, &ahead, &middle, &acceleration);
-    let reaction_B = feedforward_torque(robot, setup.base.feedforward, &middle);
+    let reaction_B = match setup.base.feedforward {
+        Feedforward::Exact => reaction_B,
+        as_printed => feedforward_torque(robot, as_printed, &array::from_fn(at_middle)),
+    };
     let mut ahead_B = SpatialForce::new(reaction_B, Vec3::zero());
     if let Some(F_E) = tool_wrench_E {
         // A base that is held in its place stands as if it were bolted down.

@@ -31,8 +31,8 @@ impl<T: Real, const J: usize> Posture<T, J> {
             let joint = robot.joint(j);
             let X_PL = joint.X_PB(q[j]);
             let X_BL = match joint.parent {
-                BodyId::Base => X_PL,
-                BodyId::Link(p) => posture.X_BL.get(p).map_or(X_PL, |X_BP| *X_BP * X_PL),
+                BodyId::Link(p) if p < J => posture.X_BL[p] * X_PL,
+                _ => X_PL,
             };
             let axis = X_BL.rotation * joint.axis_B;
             posture.S[j] = match joint.kind {

@@ -68,7 +68,8 @@ pub struct Belief<T, const J: usize> {
     pub X_NB: Pose<T>,
     /// Joint positions (rad or m).
     pub q: [T; J],
-    /// Total momentum about the system's centre of mass, inertial axes (N·m·s, N·s).
+    /// Total momentum about the system's centre of mass, inertial axes (N·m·s, N·s); only its linear part
+    /// counts where the attitude is held, and nothing where the base is bolted down.
     pub h_Scm_N: SpatialMomentum<T>,
 }
 
@@ -115,33 +116,27 @@ impl<'a, T: Real, const J: usize> LawJacobian<'a, T, J> {
         let (columns, drift) = ([SpatialVelocity::zero(); J], SpatialVelocity::zero());
         let carries = carrying(robot, to.tool.body);
         let mut law = Self { p_BE, carries, columns, drift, answer };
-        law.columns = law.total(robot, to, &posture.S, &law.answer.per_rate);
+        for j in robot.joints() {
+            law.columns[j] = law.total(to, j, &posture.S[j], &answer.per_rate[j]);
+        }
         if to.axes == Axes::Inertial {
             law.drift = law.answer.drift;
         }
         law
     }
 
-    /// What the joints themselves do to the tool, and what the base does about it. What happens
-    /// relative to the base does not depend on how the base moves.
+    /// What a joint itself does to the tool, and what the base does about it. What happens relative to
+    /// the base does not depend on how the base moves.
     #[inline(always)]
     fn total(
         &self,
-        robot: &Robot<T, J>,
         to: &Assignment<T>,
-        own: &[SpatialVelocity<T>; J],
-        answer: &[SpatialVelocity<T>; J],
-    ) -> [SpatialVelocity<T>; J] {
-        let mut columns = [SpatialVelocity::zero(); J];
-        for j in robot.joints() {
-            if self.carries[j] {
-                columns[j] = own[j];
-            }
-            if to.axes == Axes::Inertial {
-                columns[j] += answer[j];
-            }
-        }
-        columns
+        j: usize,
+        own: &SpatialVelocity<T>,
+        answer: &SpatialVelocity<T>,
+    ) -> SpatialVelocity<T> {
+        let own = if self.carries[j] { *own } else { SpatialVelocity::zero() };
+        if to.axes == Axes::Inertial { own + *answer } else { own }
     }
 
     /// The six rows of the task at the tool.
@@ -180,7 +175,7 @@ pub fn task_jacobian<T: Real, const J: usize>(
 ) -> [SpatialVelocity<T>; J] {
     let posture = Posture::new(robot, &belief.q);
     let carried = Carried::new(to.law, robot, &posture);
-    let answer = base_answer(to.law, robot, &posture, &carried, &belief.h_Scm_B());
+    let answer = base_answer(to.law, robot, &carried, &belief.h_Scm_B());
     let law = LawJacobian::new(robot, to, &posture, &answer);
     let R = match to.axes {
         Axes::Inertial => belief.X_NB.rotation,
@@ -212,7 +207,7 @@ pub fn joint_rates<T: Real, const J: usize>(
 ) -> Resolved<T, J> {
     let posture = Posture::new(robot, &belief.q);
     let carried = Carried::new(to.law, robot, &posture);
-    let answer = base_answer(to.law, robot, &posture, &carried, &belief.h_Scm_B());
+    let answer = base_answer(to.law, robot, &carried, &belief.h_Scm_B());
     let law = LawJacobian::new(robot, to, &posture, &answer);
     Solved::new(robot, to, belief, &law, V_NE, joints).rate
 }
@@ -245,23 +240,18 @@ impl<T: Real, const J: usize> Solved<T, J> {
         let mut wanted =
             subtract(&masked(&V_NE_B, to.task).to_array(), &law.rows(to.task, &law.drift));
         let (mut rows, mut free) = ([[T::zero(); 6]; J], [T::zero(); J]);
-        let mut JJt = [[T::zero(); 6]; 6];
         for j in robot.joints() {
             let row = law.rows(to.task, &law.columns[j]);
             free[j] = (joints.posture[j] - belief.q[j]) * joints.gain;
             for r in 0..6 {
                 wanted[r] -= row[r] * free[j];
-                for c in 0..=r {
-                    JJt[r][c] += row[r] * row[c];
-                }
             }
             rows[j] = row;
         }
-        if to.task == Task::Position {
-            // Rows that are not asked for: any pivot will do.
-            (0..3).for_each(|r| JJt[r][r] = T::one());
-        }
-        let inverse = DampedInverse::new(&JJt, to.damped_below);
+        let first = if to.task == Task::Position { 3 } else { 0 };
+        let mut orthogonal = rows;
+        let columns = orthogonal.get_mut(robot.joints()).unwrap_or_default();
+        let inverse = DampedInverse::new(columns, first, to.damped_below);
         let y = inverse.solve(&wanted);
         let mut share = T::one();
         for j in robot.joints() {
@@ -327,14 +317,15 @@ pub(crate) fn resolved_motion_in<T: Real, const J: usize>(
 ) -> ResolvedMotion<T, J> {
     let (law_of_base, h_Scm_B) = (to.law, belief.h_Scm_B());
     let carried = Carried::new(law_of_base, robot, posture);
-    let answer = base_answer(law_of_base, robot, posture, &carried, &h_Scm_B);
+    let answer = base_answer(law_of_base, robot, &carried, &h_Scm_B);
     let law = LawJacobian::new(robot, to, posture, &answer);
     let solved = Solved::new(robot, to, belief, &law, &wanted.V_NE, joints);
     let rate = solved.rate;
     let w_NB_B = rate.V_NB_B.angular;
     let V = posture.twists(robot, &SpatialVelocity::zero(), &rate.qdot);
-    let changing =
-        base_answer_rate(law_of_base, robot, posture, (&answer, &carried), &V, &h_Scm_B, w_NB_B);
+    let known = (&answer, &carried);
+    let moving = (&V, &rate.qdot);
+    let changing = base_answer_rate(law_of_base, robot, posture, known, moving, &h_Scm_B, w_NB_B);
     let rows = row_rates(robot, to, posture, &law, &changing, &V);
     let mut Vdot = in_base_axes(to, belief, &wanted.Vdot_NE);
     if to.axes == Axes::Inertial {
@@ -376,14 +367,11 @@ fn row_rates<T: Real, const J: usize>(
         let moved = SpatialVelocity::new(Vec3::zero(), V.angular.cross(v_BE));
         masked(&(Vdot.shifted_by(law.p_BE) + moved), to.task).to_array()
     };
-    let mut own = [SpatialVelocity::zero(); J];
-    for j in robot.joints() {
-        own[j] = V[j].cross(&posture.S[j]);
-    }
-    let rates = law.total(robot, to, &own, &changing.per_rate);
     let mut columns = [[T::zero(); 6]; J];
     for j in robot.joints() {
-        columns[j] = row_rate(&law.columns[j], &rates[j]);
+        let own = V[j].cross(&posture.S[j]);
+        let rate = law.total(to, j, &own, &changing.per_rate[j]);
+        columns[j] = row_rate(&law.columns[j], &rate);
     }
     let drift = match to.axes {
         Axes::Inertial => row_rate(&law.drift, &changing.drift),

@@ -9,7 +9,7 @@ use wrasse_dynamics::{
 };
 use wrasse_flight::{
     ArmLaw, Axes, Command, FlightComputer, Held, JointTarget, JointTiming, Measurement, Phase,
-    Sensed, attitude_torque, feedforward_torque,
+    Sensed, attitude_torque,
 };
 use wrasse_hardware::{ActuatorReadings, SetPoint, SetPointMotion};
 use wrasse_spatial::{
@@ -363,9 +363,17 @@ fn driven(
     })
 }
 
+/// Angular momentum about the system's centre of mass of joints that move so, the base not turning.
+fn swing(robot: &Robot<f64, 7>, joints: &[SetPoint<f64>; 7]) -> Vec3<f64> {
+    let state =
+        State { q: joints.map(|s| s.position), v: joints.map(|s| s.rate), ..State::default() };
+    momentum(&kinematics(robot, &state)).angular
+}
+
 /// The arm itself, driven by the commanded torques only: second order in the period, at 100 Hz it
 /// follows the set-points to 6.8e-6 rad with the attitude held and to 4.9e-5 rad with the base free,
-/// measured; and the torque on the base is that of the middle of the period.
+/// measured; and the impulse of the torque on the base is the angular momentum that the arm gains, as
+/// the kinematics of all bodies have it: measured 1.0e-12 N·m off.
 #[test]
 fn the_torques_carry_the_arm_along_the_set_points() {
     let (mut off, mut torque, robot) = (Worst::none(), Worst::none(), robot());
@@ -382,12 +390,9 @@ fn the_torques_carry_the_arm_along_the_set_points() {
                 computer.step(&Sensed::perfect(&state, ActuatorReadings::default())).unwrap();
             state = driven(&robot, &state, &command, base);
             off.see_all(state.q, command.set_points.map(|s| s.position));
-            let middle = std::array::from_fn(|j| {
-                SetPointMotion::between(now[j], command.set_points[j], PERIOD).at(0.5 * PERIOD)
-            });
-            let fed = feedforward_torque(&robot, setup.base.feedforward, &middle);
+            let gained = swing(&robot, &command.set_points) - swing(&robot, &now);
             if base == BaseMode::AttitudeHeld {
-                torque.see((command.attitude_torque_B - fed).norm());
+                torque.see((command.attitude_torque_B - gained * (1.0 / PERIOD)).norm());
             }
             now = command.set_points;
         }
