@@ -16,7 +16,6 @@ use wrasse_spatial::{Real, SpatialVelocity, Vec3};
 ///
 /// # Source
 /// [`UmetaniYoshida1989`](wrasse_spatial::references::UmetaniYoshida1989) for the reduced dynamics.
-#[inline(always)]
 pub fn computed_torque<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     law: ArmLaw,

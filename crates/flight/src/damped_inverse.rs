@@ -54,7 +54,7 @@ impl<T: Real> Factors<T> {
         }
         for k in first..5 {
             f.set_pivot(k, share[k]);
-            (0..6).for_each(|i| share[i] = share[i] * f.inverse_pivots[k]);
+            (0..6).for_each(|i| share[i] *= f.inverse_pivots[k]);
             (k + 1..6).for_each(|i| f.L[i][k] = share[i]);
             let mut products = [T::zero(); 6];
             for column in columns.iter_mut() {

@@ -6,7 +6,6 @@ use crate::computer::Setup;
 use crate::feedforward::feedforward_torque;
 use crate::law::{ArmLaw, Feedforward};
 use crate::tool_wrench::against_tool_wrench;
-use core::array;
 use wrasse_dynamics::{Robot, State};
 use wrasse_hardware::{SetPoint, SetPointMotion};
 use wrasse_spatial::{Quat, Real, SpatialForce, SpatialInertia, Vec3};
@@ -49,11 +48,10 @@ pub(crate) fn told<T: Real, const J: usize>(
 ) -> Told<T, J> {
     let (tuning, law) = (&setup.tuning, setup.assignment.law);
     let (period, half) = (tuning.period, T::from_f64(0.5));
-    let at_middle = |j: usize| SetPointMotion::between(now[j], next[j], period).at(period * half);
     let (mut middle, mut ahead) = (*now, *sensed);
     let mut acceleration = [T::zero(); J];
     for j in robot.joints() {
-        middle[j] = at_middle(j);
+        middle[j] = SetPointMotion::between(now[j], next[j], period).at(period * half);
         acceleration[j] = (next[j].rate - now[j].rate) / period;
         let gain = acceleration[j] * period * half;
         ahead.q[j] += (sensed.v[j] + gain * half) * period * half;
@@ -62,7 +60,7 @@ pub(crate) fn told<T: Real, const J: usize>(
     let mut effort = computed_torque(robot, law, tuning, &ahead, &middle, &acceleration);
     let reaction_B = match setup.base.feedforward {
         Feedforward::Exact => reaction_B,
-        as_printed => feedforward_torque(robot, as_printed, &array::from_fn(at_middle)),
+        as_printed => feedforward_torque(robot, as_printed, &middle),
     };
     let mut ahead_B = SpatialForce::new(reaction_B, Vec3::zero());
     if let Some(F_E) = tool_wrench_E {

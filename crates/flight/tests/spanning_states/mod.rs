@@ -9,7 +9,7 @@ use wrasse_flight::{
     NavigationSetup, PeriodMemory, Setup, Task, Told, Tuning, control_period,
 };
 use wrasse_hardware::JointLimits;
-use wrasse_spatial::{Mat3, Pose, Quat, SpatialVelocity, Sym3, Vec3, vec3};
+use wrasse_spatial::{Mat3, Pose, Quat, Real, SpatialVelocity, Sym3, Vec3, vec3};
 
 /// How many states there are.
 pub(crate) const STATES: usize = 1000;
@@ -155,6 +155,33 @@ impl<const J: usize> Period<J> {
     /// The vehicle as it is believed to move after the period.
     pub(crate) fn believed_state(&self) -> State<f64, J> {
         self.memory.believed_state()
+    }
+    /// Flies both periods over another scalar, from the same numbers.
+    pub(crate) fn flown_in<T: Real>(
+        &self,
+        robot: &Robot<f64, J>,
+        setup: &Setup<f64, J>,
+    ) -> Told<T, J> {
+        let Asked::Tool { reference, axes, gain, gain_rate } = self.asked else {
+            panic!("the tool is asked for")
+        };
+        let (robot, setup, c) = (robot.cast(), setup.bare(), T::from_f64);
+        let twist = |V: SpatialVelocity<f64>| SpatialVelocity::from_array(V.to_array().map(c));
+        let state = State {
+            X_NB: Pose::from_f64(&self.state.X_NB),
+            V_NB_B: twist(self.state.V_NB_B),
+            q: self.state.q.map(c),
+            v: self.state.v.map(c),
+        };
+        let reference = ToolMotion {
+            X_NE: Pose::from_f64(&reference.X_NE),
+            V_NE_N: twist(reference.V_NE_N),
+            Vdot_NE_N: twist(reference.Vdot_NE_N),
+        };
+        let asked = Asked::Tool { reference, axes, gain: c(gain), gain_rate: c(gain_rate) };
+        let mut memory = PeriodMemory::new();
+        control_period(&robot, &setup, &mut memory, &state, &Asked::Still, None);
+        control_period(&robot, &setup, &mut memory, &state, &asked, None)
     }
     /// Flies it.
     pub(crate) fn fly(&mut self, robot: &Robot<f64, J>, setup: &Setup<f64, J>) -> Told<f64, J> {
