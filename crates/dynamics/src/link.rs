@@ -81,14 +81,13 @@ fn link_axes<T: Scalar>(axis_B: Vec3<T>, next_B: Option<Vec3<T>>) -> Mat3<T> {
         // Any direction will do: what is left across z of the axis of B that is least along it.
         let (a, b, c) = (z.x.abs(), z.y.abs(), z.z.abs());
         let (one, zero) = (T::one(), T::zero());
-        let unit = if a <= b && a <= c {
+        if a <= b && a <= c {
             vec3(one, zero, zero)
         } else if b <= c {
             vec3(zero, one, zero)
         } else {
             vec3(zero, zero, one)
-        };
-        unit
+        }
     });
     // Twice, for the first time leaves rounding of what was nearly along z.
     let x = right_angle(right_angle(x, z), z);
@@ -141,7 +140,7 @@ impl<T: Real> Link<T> {
     }
     /// θ at travel `q` (rad or m).
     #[inline(always)]
-    pub(crate) fn theta(&self, q: T) -> T {
+    pub fn theta(&self, q: T) -> T {
         match self.kind {
             JointKind::Revolute => self.theta_zero + q,
             JointKind::Prismatic => self.theta_zero,
@@ -149,7 +148,7 @@ impl<T: Real> Link<T> {
     }
     /// The link at travel `q` (rad or m), where θ is known.
     #[inline(always)]
-    pub(crate) fn seat(&self, turn: Turn<T>, q: T) -> Seat<'_, T> {
+    pub fn seat(&self, turn: Turn<T>, q: T) -> Seat<'_, T> {
         let p_PL_P = match self.kind {
             JointKind::Revolute => self.origin_P,
             JointKind::Prismatic => {
@@ -159,9 +158,14 @@ impl<T: Real> Link<T> {
         };
         Seat { link: self, turn, p_PL_P }
     }
+    /// The link at travel `q` (rad or m).
+    #[inline(always)]
+    pub fn at(&self, q: T) -> Seat<'_, T> {
+        self.seat(Turn::by(self.theta(q)), q)
+    }
     /// `S q̇`: velocity relative to the parent, at the origin.
     #[inline(always)]
-    pub(crate) fn velocity(&self, qdot: T) -> SpatialVelocity<T> {
+    pub fn velocity(&self, qdot: T) -> SpatialVelocity<T> {
         let along = vec3(T::zero(), T::zero(), qdot);
         match self.kind {
             JointKind::Revolute => SpatialVelocity::new(along, Vec3::zero()),
@@ -170,7 +174,7 @@ impl<T: Real> Link<T> {
     }
     /// `Sᵀ F`: the part of a force that the joint's motor feels (N·m or N).
     #[inline(always)]
-    pub(crate) fn project(&self, F_L: &SpatialForce<T>) -> T {
+    pub fn project(&self, F_L: &SpatialForce<T>) -> T {
         match self.kind {
             JointKind::Revolute => F_L.torque.z,
             JointKind::Prismatic => F_L.force.z,
@@ -178,7 +182,7 @@ impl<T: Real> Link<T> {
     }
     /// `M S`: momentum of an inertia that moves with unit joint rate.
     #[inline(always)]
-    pub(crate) fn momentum(&self, M_L: &SpatialInertia<T>) -> SpatialForce<T> {
+    pub fn momentum(&self, M_L: &SpatialInertia<T>) -> SpatialForce<T> {
         let (h, I, o) = (M_L.first_moment, M_L.rotational, T::zero());
         match self.kind {
             JointKind::Revolute => SpatialForce::new(vec3(I.xz, I.yz, I.zz), vec3(-h.y, h.x, o)),
@@ -190,7 +194,7 @@ impl<T: Real> Link<T> {
 impl<T: Real> Seat<'_, T> {
     /// Of something in the link's axes, in the parent's.
     #[inline(always)]
-    pub(crate) fn to_parent<E: Turned<T>>(&self, of_link: &E) -> E {
+    pub fn to_parent<E: Turned<T>>(&self, of_link: &E) -> E {
         let twisted = of_link.about_z(&self.turn).about_x(&self.link.twist);
         match &self.link.fork {
             Some(fork) => twisted.about_z(fork),
@@ -199,7 +203,7 @@ impl<T: Real> Seat<'_, T> {
     }
     /// Of something in the parent's axes, in the link's.
     #[inline(always)]
-    pub(crate) fn to_link<E: Turned<T> + Copy>(&self, of_parent: &E) -> E {
+    pub fn to_link<E: Turned<T> + Copy>(&self, of_parent: &E) -> E {
         let forked = match &self.link.fork {
             Some(fork) => of_parent.about_z(&fork.back()),
             None => *of_parent,
@@ -215,7 +219,7 @@ impl<T: Real> Seat<'_, T> {
     }
     /// `X_AL` from `X_AP`.
     #[inline(always)]
-    pub(crate) fn pose(&self, X_AP: &Pose<T>) -> Pose<T> {
+    pub fn pose(&self, X_AP: &Pose<T>) -> Pose<T> {
         Pose::new(self.carried_by(&X_AP.rotation), X_AP.point(self.p_PL_P))
     }
     /// `V_NP` taken at the link's origin, in its axes.
@@ -226,13 +230,13 @@ impl<T: Real> Seat<'_, T> {
     }
     /// A force on the link, about the parent's origin in its axes.
     #[inline(always)]
-    pub(crate) fn force_to_parent(&self, F_L: &SpatialForce<T>) -> SpatialForce<T> {
+    pub fn force_to_parent(&self, F_L: &SpatialForce<T>) -> SpatialForce<T> {
         let f = self.to_parent(&F_L.force);
         SpatialForce::new(self.to_parent(&F_L.torque) + self.p_PL_P.cross(f), f)
     }
     /// An inertia at the link, about the parent's origin in its axes.
     #[inline(always)]
-    pub(crate) fn inertia_to_parent(&self, M_L: &SpatialInertia<T>) -> SpatialInertia<T> {
+    pub fn inertia_to_parent(&self, M_L: &SpatialInertia<T>) -> SpatialInertia<T> {
         self.to_parent(M_L).about(-self.p_PL_P)
     }
 }

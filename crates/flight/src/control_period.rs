@@ -259,7 +259,7 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
     #[inline(always)]
     fn follow_tool(&mut self, robot: &Robot<T, J>, setup: &Setup<T, J>, joints: &JointUse<T, J>) {
         let posture = Posture::new(robot, &self.belief.q);
-        let X_BE = posture.pose(&setup.assignment.tool);
+        let X_BE = posture.pose(robot, &setup.assignment.tool);
         let X = match self.axes {
             Axes::Inertial => self.belief.X_NB * X_BE,
             Axes::Base => X_BE,
@@ -340,7 +340,7 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         let posture = Posture::new(robot, &self.belief.q);
         let locked = Locked::new(robot, &self.belief.q, qdot);
         self.motion = answered_motion_in(robot, law, &posture, &locked, &self.belief, qdot, qddot);
-        (locked, posture.pose(&setup.assignment.tool))
+        (locked, posture.pose(robot, &setup.assignment.tool))
     }
 
     /// The same, and the tool's reference stays where that brings it.

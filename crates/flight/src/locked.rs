@@ -2,7 +2,7 @@
 //! about its own origin, without the motion of the bodies.
 
 use crate::law::ArmLaw;
-use wrasse_dynamics::{BodyId, Joint, JointKind, Robot, State};
+use wrasse_dynamics::{BodyId, Robot, State};
 use wrasse_spatial::{Real, SpatialInertia, SpatialMomentum, SpatialVelocity, Vec3};
 
 /// What a body carries, itself included.
@@ -21,17 +21,17 @@ impl<T: Real> Locked<T> {
         let mut links = [Self { M: SpatialInertia::zero(), h: SpatialMomentum::zero() }; J];
         let mut base = Self { M: *robot.inertia(BodyId::Base), h: SpatialMomentum::zero() };
         for j in robot.joints().rev() {
-            let joint = robot.joint(j);
-            let X_PL = joint.X_PB(q[j]);
+            let link = robot.link(j);
+            let seat = link.at(q[j]);
             // All that the joint carries moves with it as one body.
-            let M = links[j].M + *robot.inertia(BodyId::Link(j));
-            let h = links[j].h + momentum_along(joint, &M, qdot[j]);
-            let parent = match joint.parent {
+            let M = links[j].M + link.M_L;
+            let h = links[j].h + link.momentum(&M) * qdot[j];
+            let parent = match link.parent {
                 BodyId::Link(p) if p < J => &mut links[p],
                 _ => &mut base,
             };
-            parent.M += X_PL.inertia_to_parent(&M);
-            parent.h += X_PL.force_to_parent(&h);
+            parent.M += seat.inertia_to_parent(&M);
+            parent.h += seat.force_to_parent(&h);
         }
         base
     }
@@ -41,18 +41,6 @@ impl<T: Real> Locked<T> {
     #[inline(always)]
     pub(crate) fn swing_B(&self) -> Vec3<T> {
         self.h.about(self.M.centre_of_mass()).torque
-    }
-}
-
-/// Momentum of all that a joint carries at this rate, in the axes of its link.
-#[inline(always)]
-fn momentum_along<T: Real>(joint: &Joint<T>, M: &SpatialInertia<T>, rate: T) -> SpatialMomentum<T> {
-    let along = joint.axis_B * rate;
-    match joint.kind {
-        JointKind::Revolute => {
-            SpatialMomentum::new(M.rotational * along, along.cross(M.first_moment))
-        }
-        JointKind::Prismatic => SpatialMomentum::new(M.first_moment.cross(along), along * M.mass),
     }
 }
 
@@ -84,22 +72,18 @@ fn linear_momentum<T: Real, const J: usize>(robot: &Robot<T, J>, state: &State<T
     let mut links = [(T::zero(), Vec3::zero(), Vec3::zero()); J];
     let mut base = (M.mass, M.first_moment, Vec3::zero());
     for j in robot.joints().rev() {
-        let (joint, M) = (robot.joint(j), robot.inertia(BodyId::Link(j)));
-        let X_PL = joint.X_PB(state.q[j]);
-        let (mass, first_moment) = (links[j].0 + M.mass, links[j].1 + M.first_moment);
-        let along = joint.axis_B * state.v[j];
-        let moving = match joint.kind {
-            JointKind::Revolute => along.cross(first_moment),
-            JointKind::Prismatic => along * mass,
-        };
-        let push = links[j].2 + moving;
-        let parent = match joint.parent {
+        let link = robot.link(j);
+        let seat = link.at(state.q[j]);
+        let (mass, first_moment) = (links[j].0 + link.M_L.mass, links[j].1 + link.M_L.first_moment);
+        let M = SpatialInertia { mass, first_moment, ..SpatialInertia::zero() };
+        let push = links[j].2 + link.momentum(&M).force * state.v[j];
+        let parent = match link.parent {
             BodyId::Link(p) if p < J => &mut links[p],
             _ => &mut base,
         };
         parent.0 += mass;
-        parent.1 += X_PL.rotation * first_moment + X_PL.translation * mass;
-        parent.2 += X_PL.rotation * push;
+        parent.1 += seat.to_parent(&first_moment) + seat.p_PL_P * mass;
+        parent.2 += seat.to_parent(&push);
     }
     let SpatialVelocity { angular, linear } = state.V_NB_B;
     linear * base.0 + angular.cross(base.1) + base.2

@@ -1,9 +1,10 @@
 //! Newton's and Euler's laws link by link, each in its own axes about its own origin: the shorter way
 //! where only sums at the base are asked for.
 
-use wrasse_dynamics::{BodyId, Joint, JointKind, Robot};
+use crate::posture::of_body;
+use wrasse_dynamics::{BodyId, JointKind, Link, Robot, Seat};
 use wrasse_hardware::SetPoint;
-use wrasse_spatial::{Pose, Real, SpatialForce, SpatialInertia, Vec3};
+use wrasse_spatial::{Mat3, Real, SpatialForce, SpatialInertia, Turn, Vec3, vec3};
 
 /// What the bodies sum up to, about the base's origin in base axes.
 #[derive(Debug, Clone, Copy)]
@@ -23,61 +24,52 @@ impl<T: Real> Sum<T> {
     }
     /// With what a link carries, at `X_PL` in this body.
     #[inline(always)]
-    fn and(&self, X_PL: &Pose<T>, link: &Self) -> Self {
-        let moment = X_PL.rotation * link.first_moment + X_PL.translation * link.mass;
+    fn and(&self, seat: &Seat<'_, T>, link: &Self) -> Self {
+        let moment = seat.to_parent(&link.first_moment) + seat.p_PL_P * link.mass;
         Self {
-            F: self.F + X_PL.force_to_parent(&link.F),
+            F: self.F + seat.force_to_parent(&link.F),
             mass: self.mass + link.mass,
             first_moment: self.first_moment + moment,
         }
     }
 }
 
-/// Sum over what each link alone contributes, tip to base.
-#[inline(always)]
-fn at_base<T: Real, const J: usize>(
-    robot: &Robot<T, J>,
-    X_PL: &[Pose<T>; J],
-    base: Sum<T>,
-    links: &mut [Sum<T>; J],
-) -> Sum<T> {
-    let mut sum = base;
-    for j in robot.joints().rev() {
-        let own = links[j];
-        match robot.joint(j).parent {
-            BodyId::Link(p) if p < J => links[p] = links[p].and(&X_PL[j], &own),
-            _ => sum = sum.and(&X_PL[j], &own),
-        }
-    }
-    sum
-}
-
-/// How a link turns and how its origin accelerates, in its own axes (rad/s, rad/s², m/s²).
+/// How a body turns and how its origin accelerates, in its own axes (rad/s, rad/s², m/s²).
 #[derive(Debug, Clone, Copy)]
 struct Moving<T> {
     w: Vec3<T>,
     wdot: Vec3<T>,
     /// The classical acceleration.
     a: Vec3<T>,
+    /// How that changes from point to point: `[ẇ]× + [w]×[w]×` (1/s²).
+    gradient: Mat3<T>,
 }
 
 impl<T: Real> Moving<T> {
     #[inline(always)]
-    fn at_rest() -> Self {
-        Self { w: Vec3::zero(), wdot: Vec3::zero(), a: Vec3::zero() }
+    fn new(w: Vec3<T>, wdot: Vec3<T>, a: Vec3<T>) -> Self {
+        let (xx, yy, zz) = (w.x * w.x, w.y * w.y, w.z * w.z);
+        let (xy, xz, yz) = (w.x * w.y, w.x * w.z, w.y * w.z);
+        let gradient = Mat3::from_rows(
+            vec3(-(yy + zz), xy - wdot.z, xz + wdot.y),
+            vec3(xy + wdot.z, -(xx + zz), yz - wdot.x),
+            vec3(xz - wdot.y, yz + wdot.x, -(xx + yy)),
+        );
+        Self { w, wdot, a, gradient }
     }
     /// The link behind a joint that this body carries.
     #[inline(always)]
-    fn of_child(&self, joint: &Joint<T>, X_PL: &Pose<T>, motion: &SetPoint<T>) -> Self {
-        let (R, p) = (&X_PL.rotation, X_PL.translation);
-        let at_origin = self.a + self.wdot.cross(p) + self.w.cross(self.w.cross(p));
-        let (w, wdot) = (R.transpose_mul(self.w), R.transpose_mul(self.wdot));
-        let a = R.transpose_mul(at_origin);
-        let (rate, gain) = (joint.axis_B * motion.rate, joint.axis_B * motion.acceleration);
-        match joint.kind {
-            JointKind::Revolute => Self { w: w + rate, wdot: wdot + gain + w.cross(rate), a },
+    fn of_child(&self, link: &Link<T>, seat: &Seat<'_, T>, motion: &SetPoint<T>) -> Self {
+        let (w, wdot) = (seat.to_link(&self.w), seat.to_link(&self.wdot));
+        let a = seat.to_link(&(self.a + self.gradient * seat.p_PL_P));
+        // What the turning body does to the motion of the joint, which is along z.
+        let (rate, gain) = (motion.rate, motion.acceleration);
+        let across = vec3(w.y * rate, -(w.x * rate), gain);
+        match link.kind {
+            JointKind::Revolute => Self::new(vec3(w.x, w.y, w.z + rate), wdot + across, a),
             JointKind::Prismatic => {
-                Self { w, wdot, a: a + gain + w.cross(rate) * T::from_f64(2.0) }
+                let two = T::from_f64(2.0);
+                Self::new(w, wdot, a + vec3(across.x * two, across.y * two, gain))
             }
         }
     }
@@ -87,7 +79,7 @@ impl<T: Real> Moving<T> {
         let (h, I) = (M.first_moment, M.rotational);
         SpatialForce::new(
             I * self.wdot + self.w.cross(I * self.w) + h.cross(self.a),
-            self.a * M.mass + self.wdot.cross(h) + self.w.cross(self.w.cross(h)),
+            self.a * M.mass + self.gradient * h,
         )
     }
 }
@@ -95,7 +87,7 @@ impl<T: Real> Moving<T> {
 /// Joints in motion on a base that does not turn: what each carries, and all of it at the base.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Swing<T, const J: usize> {
-    X_PL: [Pose<T>; J],
+    turns: [Turn<T>; J],
     /// Sum over all that a joint carries, about its link's origin in its axes.
     carried: [Sum<T>; J],
     /// Force that holds the base at rest.
@@ -109,18 +101,27 @@ impl<T: Real, const J: usize> Swing<T, J> {
     /// [`Featherstone2008`](wrasse_spatial::references::Featherstone2008) ch. 5.
     #[inline(always)]
     pub(crate) fn new(robot: &Robot<T, J>, joints: &[SetPoint<T>; J]) -> Self {
-        let rest = Moving::at_rest();
+        let rest = Moving::new(Vec3::zero(), Vec3::zero(), Vec3::zero());
         let base = Sum::new(robot.inertia(BodyId::Base), SpatialForce::zero());
-        let (mut X_PL, mut carried) = ([Pose::identity(); J], [base; J]);
+        let mut swing = Self { turns: [Turn::none(); J], carried: [base; J], base };
         let mut moving = [rest; J];
         for j in robot.joints() {
-            let (joint, M) = (robot.joint(j), robot.inertia(BodyId::Link(j)));
-            X_PL[j] = joint.X_PB(joints[j].position);
-            moving[j] = of_parent(joint, &rest, &moving).of_child(joint, &X_PL[j], &joints[j]);
-            carried[j] = Sum::new(M, moving[j].force(M));
+            let (link, motion) = (robot.link(j), &joints[j]);
+            swing.turns[j] = Turn::by(link.theta(motion.position));
+            let seat = link.seat(swing.turns[j], motion.position);
+            moving[j] = of_body(link.parent, &rest, &moving).of_child(link, &seat, motion);
+            swing.carried[j] = Sum::new(&link.M_L, moving[j].force(&link.M_L));
         }
-        let base = at_base(robot, &X_PL, base, &mut carried);
-        Self { X_PL, carried, base }
+        for j in robot.joints().rev() {
+            let (link, own) = (robot.link(j), swing.carried[j]);
+            let seat = link.seat(swing.turns[j], joints[j].position);
+            let parent = match link.parent {
+                BodyId::Link(p) if p < J => &mut swing.carried[p],
+                _ => &mut swing.base,
+            };
+            *parent = parent.and(&seat, &own);
+        }
+        swing
     }
     /// What the motors give for it (N·m, N), while the base gives way with the acceleration `a_B`
     /// (m/s², base axes).
@@ -128,20 +129,13 @@ impl<T: Real, const J: usize> Swing<T, J> {
     pub(crate) fn effort(&self, robot: &Robot<T, J>, a_B: Vec3<T>) -> [T; J] {
         let (mut effort, mut a) = ([T::zero(); J], [a_B; J]);
         for j in robot.joints() {
-            let (joint, own) = (robot.joint(j), &self.carried[j]);
-            a[j] = self.X_PL[j].rotation.transpose_mul(of_parent(joint, &a_B, &a));
+            let (link, own) = (robot.link(j), &self.carried[j]);
+            // Where the joint is along its travel does not turn anything.
+            let seat = link.seat(self.turns[j], T::zero());
+            a[j] = seat.to_link(&of_body(link.parent, &a_B, &a));
             let along = SpatialForce::new(own.first_moment.cross(a[j]), a[j] * own.mass);
-            effort[j] = joint.project(&(own.F + along));
+            effort[j] = link.project(&(own.F + along));
         }
         effort
-    }
-}
-
-/// What belongs to the body that carries a joint.
-#[inline(always)]
-fn of_parent<T, E: Copy>(joint: &Joint<T>, base: &E, links: &[E]) -> E {
-    match joint.parent {
-        BodyId::Base => *base,
-        BodyId::Link(p) => *links.get(p).unwrap_or(base),
     }
 }

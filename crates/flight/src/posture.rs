@@ -28,14 +28,11 @@ impl<T: Real, const J: usize> Posture<T, J> {
     pub(crate) fn new(robot: &Robot<T, J>, q: &[T; J]) -> Self {
         let mut posture = Self { X_BL: [Pose::identity(); J], S: [SpatialVelocity::zero(); J] };
         for j in robot.joints() {
-            let joint = robot.joint(j);
-            let X_PL = joint.X_PB(q[j]);
-            let X_BL = match joint.parent {
-                BodyId::Link(p) if p < J => posture.X_BL[p] * X_PL,
-                _ => X_PL,
-            };
-            let axis = X_BL.rotation * joint.axis_B;
-            posture.S[j] = match joint.kind {
+            let link = robot.link(j);
+            let X_BP = of_body(link.parent, &Pose::identity(), &posture.X_BL);
+            let X_BL = link.at(q[j]).pose(&X_BP);
+            let axis = X_BL.rotation.column(2);
+            posture.S[j] = match link.kind {
                 JointKind::Revolute => SpatialVelocity::new(axis, X_BL.translation.cross(axis)),
                 JointKind::Prismatic => SpatialVelocity::new(Vec3::zero(), axis),
             };
@@ -45,19 +42,21 @@ impl<T: Real, const J: usize> Posture<T, J> {
     }
     /// Pose `X_BF` of a frame in the base.
     #[inline(always)]
-    pub(crate) fn pose(&self, frame: &Frame<T>) -> Pose<T> {
-        of_body(frame.body, &Pose::identity(), &self.X_BL) * frame.X_BF
+    pub(crate) fn pose(&self, robot: &Robot<T, J>, frame: &Frame<T>) -> Pose<T> {
+        let BodyId::Link(j) = frame.body else { return frame.X_BF };
+        let X_LF = Pose::new(robot.link(j).R_LB, Vec3::zero()) * frame.X_BF;
+        of_body(frame.body, &Pose::identity(), &self.X_BL) * X_LF
     }
     /// Mass (kg) and first moment (kg·m) of a link.
     #[inline(always)]
     pub(crate) fn first_moment(&self, robot: &Robot<T, J>, j: usize) -> (T, Vec3<T>) {
-        let (X, M) = (&self.X_BL[j], robot.inertia(BodyId::Link(j)));
+        let (X, M) = (&self.X_BL[j], &robot.link(j).M_L);
         (M.mass, X.rotation * M.first_moment + X.translation * M.mass)
     }
     /// Inertia of a link about Bo, base axes.
     #[inline(always)]
     pub(crate) fn inertia(&self, robot: &Robot<T, J>, j: usize) -> SpatialInertia<T> {
-        seen_from_base(&self.X_BL[j], robot.inertia(BodyId::Link(j)))
+        seen_from_base(&self.X_BL[j], &robot.link(j).M_L)
     }
     /// What the bodies weigh.
     #[inline(always)]

@@ -112,7 +112,7 @@ impl<'a, T: Real, const J: usize> LawJacobian<'a, T, J> {
         posture: &Posture<T, J>,
         answer: &'a BaseAnswer<T, J>,
     ) -> Self {
-        let p_BE = posture.pose(&to.tool).translation;
+        let p_BE = posture.pose(robot, &to.tool).translation;
         let (columns, drift) = ([SpatialVelocity::zero(); J], SpatialVelocity::zero());
         let carries = carrying(robot, to.tool.body);
         let mut law = Self { p_BE, carries, columns, drift, answer };
