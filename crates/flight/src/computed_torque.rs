@@ -6,7 +6,7 @@ use crate::newton_euler::Swing;
 use crate::posture::Posture;
 use wrasse_dynamics::{BodyId, Robot, State};
 use wrasse_hardware::SetPoint;
-use wrasse_spatial::{Real, SpatialVelocity, Vec3};
+use wrasse_spatial::{Real, SpatialVelocity, Vec3, Work};
 
 /// Joint torques (N·m, N) that follow the set-points: `τ = H (q̈_d + 2ζω ė + ω² e) + c`.
 ///
@@ -24,22 +24,41 @@ pub fn computed_torque<T: Real, const J: usize>(
     now: &[SetPoint<T>; J],
     acceleration: &[T; J],
 ) -> [T; J] {
-    let stiffness = tuning.joint_bandwidth * tuning.joint_bandwidth;
-    let damping = T::from_f64(2.0) * tuning.joint_damping * tuning.joint_bandwidth;
-    let mut joints = *now;
-    for j in robot.joints() {
-        let (position, rate) = (sensed.q[j], sensed.v[j]);
-        let back = damping * (now[j].rate - rate) + stiffness * (now[j].position - position);
-        joints[j] = SetPoint { position, rate, acceleration: acceleration[j] + back };
-    }
-    match law {
-        ArmLaw::Terrestrial => Swing::new(robot, &joints).effort(robot, Vec3::zero()),
-        ArmLaw::AttitudeHeld => {
-            // Where a base that does not turn goes has no part in it, only that it gives way.
-            let swing = Swing::new(robot, &joints);
-            swing.effort(robot, swing.base.F.force * (-T::one() / swing.base.mass))
+    T::apart(Torque { robot, law, tuning, sensed, now, acceleration })
+}
+
+/// The torques as a piece of work.
+struct Torque<'a, T, const J: usize> {
+    robot: &'a Robot<T, J>,
+    law: ArmLaw,
+    tuning: &'a Tuning<T>,
+    sensed: &'a State<T, J>,
+    now: &'a [SetPoint<T>; J],
+    acceleration: &'a [T; J],
+}
+
+impl<T: Real, const J: usize> Work for Torque<'_, T, J> {
+    type Out = [T; J];
+    #[inline(always)]
+    fn run(self) -> [T; J] {
+        let Self { robot, law, tuning, sensed, now, acceleration } = self;
+        let stiffness = tuning.joint_bandwidth * tuning.joint_bandwidth;
+        let damping = T::from_f64(2.0) * tuning.joint_damping * tuning.joint_bandwidth;
+        let mut joints = *now;
+        for j in robot.joints() {
+            let (position, rate) = (sensed.q[j], sensed.v[j]);
+            let back = damping * (now[j].rate - rate) + stiffness * (now[j].position - position);
+            joints[j] = SetPoint { position, rate, acceleration: acceleration[j] + back };
         }
-        ArmLaw::FreeFloating => on_floating_base(robot, &sensed.V_NB_B, &joints),
+        match law {
+            ArmLaw::Terrestrial => Swing::new(robot, &joints).effort(robot, Vec3::zero()),
+            ArmLaw::AttitudeHeld => {
+                // Where a base that does not turn goes has no part in it, only that it gives way.
+                let swing = Swing::new(robot, &joints);
+                swing.effort(robot, swing.base.F.force * (-T::one() / swing.base.mass))
+            }
+            ArmLaw::FreeFloating => on_floating_base(robot, &sensed.V_NB_B, &joints),
+        }
     }
 }
 

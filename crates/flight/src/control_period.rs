@@ -17,7 +17,7 @@ use crate::trajectory::{JointSetPoint, ToolMotion};
 use wrasse_dynamics::{Robot, State};
 use wrasse_hardware::SetPoint;
 use wrasse_spatial::{
-    Mat3, Pose, Quat, Real, SpatialForce, SpatialMomentum, SpatialVelocity, Vec3,
+    Mat3, Pose, Quat, Real, SpatialForce, SpatialMomentum, SpatialVelocity, Vec3, Work,
 };
 
 /// What is asked of the arm at the end of a period.
@@ -125,6 +125,11 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
 
     /// First half of a period: take from what is sensed what the laws may take.
     pub fn look(&mut self, robot: &Robot<T, J>, setup: &Setup<T, J>, sensed: &State<T, J>) {
+        T::apart(Look { memory: self, robot, setup, sensed });
+    }
+
+    #[inline(always)]
+    fn look_here(&mut self, robot: &Robot<T, J>, setup: &Setup<T, J>, sensed: &State<T, J>) {
         let measured = setup.measurement == Measurement::Base;
         if measured || !self.started {
             self.belief.X_NB = sensed.X_NB;
@@ -141,6 +146,7 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
 
     /// Begin where the joints are, with the base moving as the law says: at the start, and as long
     /// as nothing drives them.
+    #[inline(always)]
     fn start_from(&mut self, robot: &Robot<T, J>, setup: &Setup<T, J>, sensed: &State<T, J>) {
         self.started = true;
         self.belief.q = sensed.q;
@@ -162,6 +168,18 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
 
     /// Second half: follow what is asked.
     pub fn act(
+        &mut self,
+        robot: &Robot<T, J>,
+        setup: &Setup<T, J>,
+        sensed: &State<T, J>,
+        asked: &Asked<T, J>,
+        tool_wrench_E: Option<&SpatialForce<T>>,
+    ) -> Told<T, J> {
+        T::apart(Act { memory: self, robot, setup, sensed, asked, tool_wrench_E })
+    }
+
+    #[inline(always)]
+    fn act_here(
         &mut self,
         robot: &Robot<T, J>,
         setup: &Setup<T, J>,
@@ -235,7 +253,7 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             Asked::Tool { reference, axes, gain, gain_rate } => {
                 (self.reference, self.axes) = (*reference, *axes);
                 let joints = JointUse { gain: *gain, gain_rate: *gain_rate, ..setup.joints };
-                self.follow_tool(robot, setup, &joints);
+                T::apart(FollowTool { memory: self, robot, setup, joints: &joints });
                 self.correct_joints(robot, began, setup.tuning.period);
                 Locked::new(robot, &self.belief.q, &self.motion.rate.qdot)
             }
@@ -336,6 +354,17 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         qdot: &[T; J],
         qddot: &[T; J],
     ) -> (Locked<T>, Pose<T>) {
+        T::apart(Answer { memory: self, robot, setup, qdot, qddot })
+    }
+
+    #[inline(always)]
+    fn answer_here(
+        &mut self,
+        robot: &Robot<T, J>,
+        setup: &Setup<T, J>,
+        qdot: &[T; J],
+        qddot: &[T; J],
+    ) -> (Locked<T>, Pose<T>) {
         let law = setup.assignment.law;
         let posture = Posture::new(robot, &self.belief.q);
         let locked = Locked::new(robot, &self.belief.q, qdot);
@@ -356,6 +385,74 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         self.axes = Axes::Inertial;
         self.reference = at_rest(self.belief.X_NB * X_BE);
         locked
+    }
+}
+
+/// The first half of a period as a piece of work.
+struct Look<'a, T, const J: usize> {
+    memory: &'a mut PeriodMemory<T, J>,
+    robot: &'a Robot<T, J>,
+    setup: &'a Setup<T, J>,
+    sensed: &'a State<T, J>,
+}
+
+impl<T: Real, const J: usize> Work for Look<'_, T, J> {
+    type Out = ();
+    #[inline(always)]
+    fn run(self) {
+        self.memory.look_here(self.robot, self.setup, self.sensed);
+    }
+}
+
+/// The second half.
+struct Act<'a, T, const J: usize> {
+    memory: &'a mut PeriodMemory<T, J>,
+    robot: &'a Robot<T, J>,
+    setup: &'a Setup<T, J>,
+    sensed: &'a State<T, J>,
+    asked: &'a Asked<T, J>,
+    tool_wrench_E: Option<&'a SpatialForce<T>>,
+}
+
+impl<T: Real, const J: usize> Work for Act<'_, T, J> {
+    type Out = Told<T, J>;
+    #[inline(always)]
+    fn run(self) -> Told<T, J> {
+        let Self { memory, robot, setup, sensed, asked, tool_wrench_E } = self;
+        memory.act_here(robot, setup, sensed, asked, tool_wrench_E)
+    }
+}
+
+/// Its part that follows a tool.
+struct FollowTool<'a, T, const J: usize> {
+    memory: &'a mut PeriodMemory<T, J>,
+    robot: &'a Robot<T, J>,
+    setup: &'a Setup<T, J>,
+    joints: &'a JointUse<T, J>,
+}
+
+impl<T: Real, const J: usize> Work for FollowTool<'_, T, J> {
+    type Out = ();
+    #[inline(always)]
+    fn run(self) {
+        self.memory.follow_tool(self.robot, self.setup, self.joints);
+    }
+}
+
+/// Its part that lets the base answer.
+struct Answer<'a, T, const J: usize> {
+    memory: &'a mut PeriodMemory<T, J>,
+    robot: &'a Robot<T, J>,
+    setup: &'a Setup<T, J>,
+    qdot: &'a [T; J],
+    qddot: &'a [T; J],
+}
+
+impl<T: Real, const J: usize> Work for Answer<'_, T, J> {
+    type Out = (Locked<T>, Pose<T>);
+    #[inline(always)]
+    fn run(self) -> Self::Out {
+        self.memory.answer_here(self.robot, self.setup, self.qdot, self.qddot)
     }
 }
 

@@ -3,7 +3,7 @@
 
 use crate::law::ArmLaw;
 use wrasse_dynamics::{BodyId, Robot, State};
-use wrasse_spatial::{Real, SpatialInertia, SpatialMomentum, SpatialVelocity, Vec3};
+use wrasse_spatial::{Real, SpatialInertia, SpatialMomentum, SpatialVelocity, Vec3, Work};
 
 /// What a body carries, itself included.
 #[derive(Debug, Clone, Copy)]
@@ -16,10 +16,32 @@ pub(crate) struct Locked<T> {
 
 impl<T: Real> Locked<T> {
     /// All of it, about the base's origin in base axes.
-    #[inline(always)]
     pub(crate) fn new<const J: usize>(robot: &Robot<T, J>, q: &[T; J], qdot: &[T; J]) -> Self {
-        let mut links = [Self { M: SpatialInertia::zero(), h: SpatialMomentum::zero() }; J];
-        let mut base = Self { M: *robot.inertia(BodyId::Base), h: SpatialMomentum::zero() };
+        T::apart(Lock { robot, q, qdot })
+    }
+
+    /// Angular momentum of the joints' motion about the system's centre of mass (N·m·s, base axes), on a
+    /// base that does not turn but gives way.
+    #[inline(always)]
+    pub(crate) fn swing_B(&self) -> Vec3<T> {
+        self.h.about(self.M.centre_of_mass()).torque
+    }
+}
+
+/// Locking the joints, as a piece of work.
+struct Lock<'a, T, const J: usize> {
+    robot: &'a Robot<T, J>,
+    q: &'a [T; J],
+    qdot: &'a [T; J],
+}
+
+impl<T: Real, const J: usize> Work for Lock<'_, T, J> {
+    type Out = Locked<T>;
+    #[inline(always)]
+    fn run(self) -> Locked<T> {
+        let Self { robot, q, qdot } = self;
+        let mut links = [Locked { M: SpatialInertia::zero(), h: SpatialMomentum::zero() }; J];
+        let mut base = Locked { M: *robot.inertia(BodyId::Base), h: SpatialMomentum::zero() };
         for j in robot.joints().rev() {
             let link = robot.link(j);
             let seat = link.at(q[j]);
@@ -34,13 +56,6 @@ impl<T: Real> Locked<T> {
             parent.h += seat.force_to_parent(&h);
         }
         base
-    }
-
-    /// Angular momentum of the joints' motion about the system's centre of mass (N·m·s, base axes), on a
-    /// base that does not turn but gives way.
-    #[inline(always)]
-    pub(crate) fn swing_B(&self) -> Vec3<T> {
-        self.h.about(self.M.centre_of_mass()).torque
     }
 }
 
