@@ -4,9 +4,9 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::Duration;
-use wrasse_bench::{Built, Call, DERIVATIVES, KERNELS, STATES, Subject, subject, widened};
+use wrasse_bench::{Call, DERIVATIVES, KERNELS, STATES, Subject, subject, widened};
 use wrasse_lanes::{Level, OnAnyLevel};
-use wrasse_spatial::{Instructions, Lanes, Real, Work};
+use wrasse_spatial::{Baseline, Instructions, Lanes, Real, Work};
 use wrasse_world::{BaseAttitude, Equipment, Stepper, World, WorldSetup};
 
 /// Samples as the peers take them: fifteen batches.
@@ -28,7 +28,8 @@ fn vehicle<const J: usize>(criterion: &mut Criterion, name: &str) {
     for (kernel, quantity) in DERIVATIVES {
         alone(&mut group, kernel, |state| Call { quantity, subject, state });
     }
-    Level::best().choose(InLanes { group: &mut group, subject });
+    // With two lanes at a time nothing flies side by side.
+    Level::best().choose_wide(InLanes { group: &mut group, subject });
     let mut world = coasting(subject);
     group.bench_function("coasting_step.single", |bencher| {
         bencher.iter(|| black_box(&mut world).advance(STEP).is_ok());
@@ -40,15 +41,25 @@ type Group<'a> = BenchmarkGroup<'a, WallTime>;
 
 /// A kernel for single numbers, by the calls for its states.
 fn alone<W: Work>(group: &mut Group<'_>, kernel: &str, call: impl Fn(usize) -> W) {
-    for (how, level) in [("single", Level::Base), ("single_avx2", Level::Avx2)] {
-        let mut turn = 0;
-        group.bench_function(format!("{kernel}.{how}"), |bencher| {
-            bencher.iter(|| {
-                turn = (turn + 1) % STATES;
-                level.choose(Built(call(turn)));
-            });
-        });
+    built_for::<Baseline, W>(group, &format!("{kernel}.single"), &call);
+    #[cfg(target_arch = "x86_64")]
+    if Level::Avx2.is_available() {
+        built_for::<wrasse_lanes::Avx2, W>(group, &format!("{kernel}.single_avx2"), &call);
     }
+}
+
+fn built_for<I: Instructions, W: Work>(
+    group: &mut Group<'_>,
+    name: &str,
+    call: &impl Fn(usize) -> W,
+) {
+    let mut turn = 0;
+    group.bench_function(name, |bencher| {
+        bencher.iter(|| {
+            turn = (turn + 1) % STATES;
+            I::run(call(turn))
+        });
+    });
 }
 
 /// Kernels for eight states at a time.

@@ -7,8 +7,7 @@ use wrasse_dynamics::{
     forward_dynamics, forward_dynamics_derivatives, generalized_jacobian, inverse_dynamics,
     inverse_dynamics_derivatives, jacobian, kinematics, mass_matrix, momentum_matrix,
 };
-use wrasse_lanes::OnAnyLevel;
-use wrasse_spatial::{Instructions, Pose, Real, SpatialForce, Work};
+use wrasse_spatial::{Pose, Real, SpatialForce, Work};
 
 /// What is worked out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -110,15 +109,4 @@ impl<T: Real, const J: usize> Work for Call<'_, Derivative, T, J> {
 fn force<T: Real, const J: usize>(nudot: &GeneralizedVelocity<T, J>) -> GeneralizedForce<T, J> {
     let base = SpatialForce::new(nudot.base.angular, nudot.base.linear);
     Generalized { base, joints: nudot.joints }
-}
-
-/// A piece of work as it is built for a level, whatever its numbers are.
-#[derive(Debug, Clone, Copy)]
-pub struct Built<W>(pub W);
-
-impl<W: Work> OnAnyLevel for Built<W> {
-    type Out = W::Out;
-    fn with<I: Instructions>(self) -> W::Out {
-        I::run(self.0)
-    }
 }
