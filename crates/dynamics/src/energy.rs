@@ -4,6 +4,7 @@ use crate::Kinematics;
 use wrasse_spatial::Real;
 
 /// Kinetic energy `Σ ½ V·M V` (J), summed body by body.
+#[inline(always)]
 pub fn kinetic_energy<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> T {
     let (mut twice, V_L) = (T::zero(), k.link_twists());
     for body in k.robot.bodies() {

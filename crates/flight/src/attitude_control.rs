@@ -16,6 +16,7 @@ use wrasse_spatial::{Quat, Real, Sym3, Vec3};
 ///
 /// # Source
 /// [`Wie2008`](wrasse_spatial::references::Wie2008) ch. 7: quaternion feedback.
+#[inline(always)]
 pub fn attitude_torque<T: Real>(
     tuning: &Tuning<T>,
     I_Scm_B: &Sym3<T>,

@@ -27,6 +27,7 @@ pub struct Told<T, const J: usize> {
 
 impl<T: Real, const J: usize> Told<T, J> {
     /// No torque and no force.
+    #[inline(always)]
     pub(crate) fn nothing(set_points: [SetPoint<T>; J], M_B: SpatialInertia<T>) -> Self {
         let none = Vec3::zero();
         let effort = [T::zero(); J];
