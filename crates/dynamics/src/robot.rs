@@ -45,29 +45,24 @@ pub struct Joint<T> {
     pub X_PB_zero: Pose<T>,
     /// Unit axis, in the axes of the body that it carries (–).
     pub axis_B: Vec3<T>,
-    /// `R_PB(q) = turn[0] + turn[1] sin q + turn[2] cos q`: the constants of a turn, folded once.
-    turn: [Mat3<T>; 3],
 }
 
 impl<T: Real> Joint<T> {
     /// A joint on `parent`, with `X_PB` at zero travel and its axis in B axes (made a unit vector).
     pub fn new(parent: BodyId, kind: JointKind, X_PB_zero: Pose<T>, axis_B: Vec3<T>) -> Self {
-        let a = axis_B * (T::one() / axis_B.norm());
-        let along = a.outer(a);
-        // Rodrigues: R(q) = a aᵀ + sin q [a]× + cos q (1 - a aᵀ).
-        let R = X_PB_zero.rotation;
-        let turn = [R * along, R * a.skew(), R * (Mat3::identity() - along)];
-        Self { parent, kind, X_PB_zero, axis_B: a, turn }
+        Self { parent, kind, X_PB_zero, axis_B: axis_B * (T::one() / axis_B.norm()) }
     }
     /// `X_PB` at travel `q` (rad or m).
     #[inline(always)]
     pub fn X_PB(&self, q: T) -> Pose<T> {
         match self.kind {
             JointKind::Revolute => {
-                let (sin, cos) = q.sin_cos();
-                let [along, sine, cosine] = &self.turn;
-                let R_PB = *along + sine.scaled(sin) + cosine.scaled(cos);
-                Pose::new(R_PB, self.X_PB_zero.translation)
+                // Rodrigues: R(q) = a aᵀ + sin q [a]× + cos q (1 - a aᵀ).
+                let ((sin, cos), a) = (q.sin_cos(), self.axis_B);
+                let along = a.outer(a);
+                let across = Mat3::identity() - along;
+                let turn = along + a.skew().scaled(sin) + across.scaled(cos);
+                Pose::new(self.X_PB_zero.rotation * turn, self.X_PB_zero.translation)
             }
             JointKind::Prismatic => {
                 Pose::new(self.X_PB_zero.rotation, self.X_PB_zero.point(self.axis_B * q))
@@ -231,7 +226,7 @@ impl<T: Scalar, const J: usize> Robot<T, J> {
         for (j, (joint, matter)) in links.iter().enumerate() {
             let R_PBp = match joint.parent {
                 BodyId::Base => Mat3::identity(),
-                BodyId::Link(p) if p < j => robot.links[p].R_LB,
+                BodyId::Link(p) if p < j => robot.link(p).R_LB,
                 BodyId::Link(_) => return Err(RobotError::ParentAfterChild { joint: j }),
             };
             robot.joints[j] = *joint;
@@ -344,7 +339,6 @@ impl<const J: usize> Robot<f64, J> {
                 kind: j.kind,
                 X_PB_zero: Pose::from_f64(&j.X_PB_zero),
                 axis_B: Vec3::from_f64(j.axis_B),
-                turn: j.turn.map(Mat3::from_f64),
             }),
             matter: PerBody {
                 base: payload(&self.matter.base),

@@ -5,12 +5,12 @@ use wrasse_spatial::{Instructions, Lanes, SideBySide};
 
 impl<I: Instructions, const N: usize, const J: usize> Robot<Lanes<N, I>, J> {
     /// Robots of the same tree and the same joints, whatever they weigh; `None` if they are not.
-    pub fn side_by_side(of: &[Robot<f64, J>; N]) -> Option<Self> {
-        let first = of.first()?;
+    pub fn side_by_side(of: &[&Robot<f64, J>; N]) -> Option<Self> {
+        let first = *of.first()?;
         let same = |robot: &Robot<f64, J>| {
             robot.count == first.count && robot.joints().all(|j| robot.joints[j] == first.joints[j])
         };
-        if !of.iter().all(same) {
+        if !of.iter().copied().all(same) {
             return None;
         }
         let mut robot: Self = first.cast();
@@ -88,13 +88,13 @@ mod tests {
     #[test]
     fn robots_that_weigh_differently_go_side_by_side() {
         let z = vec3(0.0, 0.0, 1.0);
-        let both = Robot::<Lanes<2>, 2>::side_by_side(&[robot(3.0, z), robot(5.0, z)]).unwrap();
+        let both = Robot::<Lanes<2>, 2>::side_by_side(&[&robot(3.0, z), &robot(5.0, z)]).unwrap();
         assert_eq!(both.mass().0, [6.0, 10.0]);
     }
 
     #[test]
     fn robots_that_are_built_differently_do_not() {
         let (y, z) = (vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0));
-        assert!(Robot::<Lanes<2>, 2>::side_by_side(&[robot(3.0, y), robot(3.0, z)]).is_none());
+        assert!(Robot::<Lanes<2>, 2>::side_by_side(&[&robot(3.0, y), &robot(3.0, z)]).is_none());
     }
 }

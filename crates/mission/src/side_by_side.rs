@@ -42,7 +42,7 @@ pub(crate) fn flies_side_by_side(case: &Case) -> bool {
 
 /// One sample on its way.
 struct Lane<'a> {
-    flight: Flight<'a>,
+    flight: Box<Flight<'a>>,
     periods: u64,
     guidance: Guidance<f64, JOINTS>,
     watch: Watch,
@@ -55,12 +55,12 @@ struct Lane<'a> {
 struct Formation<'a, I: Instructions> {
     planned: &'a SamplePlan<'a>,
     lanes: Vec<Lane<'a>>,
-    worlds: WorldsSideBySide<I, LANES, JOINTS>,
+    worlds: Box<WorldsSideBySide<I, LANES, JOINTS>>,
     ledgers: [Ledger; LANES],
     /// The vehicles as the laws believe them to be.
-    robot: Robot<L<I>, JOINTS>,
+    robot: Box<Robot<L<I>, JOINTS>>,
     setup: Setup<L<I>, JOINTS>,
-    memory: PeriodMemory<L<I>, JOINTS>,
+    memory: Box<PeriodMemory<L<I>, JOINTS>>,
     set_points: [SetPoint<L<I>>; JOINTS],
     state: State<L<I>, JOINTS>,
 }
@@ -88,6 +88,8 @@ struct FlySideBySide<'a> {
 
 impl OnAnyLevel for FlySideBySide<'_> {
     type Out = Option<[Option<Flown>; LANES]>;
+    // Lanes are large: each level has a stack frame of its own, and the rest lies on the heap.
+    #[inline(never)]
     fn with<I: Instructions>(self) -> Self::Out {
         Formation::<I>::new(self.planned, self.cases)?.fly()
     }
@@ -100,7 +102,7 @@ impl<'a, I: Instructions> Formation<'a, I> {
             return None;
         }
         let lane = |(case, plan): (&'a Case, &'a Plan)| Lane {
-            flight: Flight::new(case, case.stepper, false),
+            flight: Box::new(Flight::new(case, case.stepper, false)),
             periods: plan.periods,
             guidance: Guidance::new(&case.flight_phases()),
             watch: Watch::new(case.quantities.clone(), case.phases.len()),
@@ -109,13 +111,14 @@ impl<'a, I: Instructions> Formation<'a, I> {
         };
         let lanes: Vec<Lane<'a>> = cases.into_iter().map(lane).collect();
         let worlds = WorldsSideBySide::new(&core::array::from_fn(|i| &lanes[i].flight.world))?;
-        let believed = core::array::from_fn(|i| *lanes[i].flight.computer.robot());
+        let worlds = Box::new(worlds);
+        let believed = core::array::from_fn(|i| lanes[i].flight.computer.robot());
         Some(Self {
             planned,
             ledgers: core::array::from_fn(|i| lanes[i].flight.world.open_ledger()),
-            robot: Robot::side_by_side(&believed)?,
+            robot: Box::new(Robot::side_by_side(&believed)?),
             setup: first.setup.bare(),
-            memory: PeriodMemory::new(),
+            memory: Box::new(PeriodMemory::new()),
             set_points: SideBySide::side_by_side(&|i| lanes[i].flight.set_points),
             state: worlds.state(),
             lanes,

@@ -86,7 +86,7 @@ impl<I: Instructions, const N: usize, const J: usize> WorldsSideBySide<I, N, J> 
             SideBySide::side_by_side(&|i| of(worlds[i]))
         };
         Some(Self {
-            robot: Robot::side_by_side(&core::array::from_fn(|i| worlds[i].robot))?,
+            robot: Robot::side_by_side(&core::array::from_fn(|i| &worlds[i].robot))?,
             limits: first.limits,
             actuator: first.actuator,
             base: first.base,
