@@ -5,7 +5,7 @@
 
 #include <stdio.h>
 
-/* The flight code brings no memory of its own: here it is static, 24 KiB. */
+/* The flight code brings no memory of its own: here it is static, 16 KiB. */
 static WrasseFlight flight;
 
 static int failed(const char *what, WrasseStatus status, const WrasseComplaint *complaint)
