@@ -110,10 +110,24 @@ impl<I: Instructions> Work for Peak<I> {
     #[inline(always)]
     fn run(self) {
         let (mut x, a, b) = (self.0, Lanes::from_f64(0.999_999), Lanes::from_f64(1e-6));
+        let on = |x: Lanes<8, I>| x * a + b;
         for _ in 0..100 {
-            for x in &mut x {
-                *x = *x * a + b;
-            }
+            // By name, so that all of them stay in registers.
+            let [c, d, e, f, g, h, i, j, k, l, m, n] = x;
+            x = [
+                on(c),
+                on(d),
+                on(e),
+                on(f),
+                on(g),
+                on(h),
+                on(i),
+                on(j),
+                on(k),
+                on(l),
+                on(m),
+                on(n),
+            ];
         }
         black_box(&x);
     }
