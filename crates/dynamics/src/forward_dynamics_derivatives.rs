@@ -37,7 +37,7 @@ pub struct ForwardDynamicsDerivatives<T, const J: usize> {
 /// | `outside` | wrench on each body at its origin, in its axes | N·m, N |
 ///
 /// # Source
-/// J. Carpentier, N. Mansard, *Analytical derivatives of rigid body dynamics algorithms*, RSS 2018.
+/// [`CarpentierMansard2018`](wrasse_spatial::references::CarpentierMansard2018).
 #[doc(alias = "aba derivatives")]
 pub fn forward_dynamics_derivatives<'a, T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
@@ -53,10 +53,10 @@ pub fn forward_dynamics_derivatives<'a, T: Real, const J: usize>(
     let M = Elimination::new(k.robot, &taken.by_acceleration);
     let mut found = ForwardDynamicsDerivatives::nothing();
     M.inverse_into(&mut found.by_force);
-    let bias = bodies.project(k, &bodies.forces(k, &Generalized::default(), &outside));
-    found.nudot = found.by_force.times(&difference(force, &bias));
+    let mut forces = bodies.forces(k, &Generalized::default(), &outside);
+    found.nudot = found.by_force.times(&difference(force, &bodies.project(k, &forces)));
     // 2. What more force a motion close to it would take.
-    let forces = bodies.forces(k, &found.nudot, &outside);
+    bodies.accelerate(k, &found.nudot, &mut forces);
     taken.differentiate(k, &bodies, &forces);
     // 3. That force is not there: the accelerations give way.
     give_way(&M, &taken.by_position, &mut found.by_position);
@@ -89,37 +89,49 @@ fn difference<T: Real, const J: usize>(
     Generalized { base: a.base - b.base, joints: array::from_fn(|j| a.joints[j] - b.joints[j]) }
 }
 
-/// Columns that are worked on at a time: enough to fill the processor's lanes.
-const WIDTH: usize = 4;
-
-/// `-M⁻¹ F` of the columns of the joints.
+/// `-M⁻¹ F` of the columns of the joints, some at a time: enough to fill the processor's lanes.
 #[inline(always)]
 fn give_way<T: Real, const J: usize>(
     M: &Elimination<T, J>,
     F: &JointColumns<SpatialForce<T>, T, J>,
     found: &mut JointColumns<SpatialVelocity<T>, T, J>,
 ) {
-    let joints = M.joints();
-    let (mut first, mut rows) = (0, Rows::zero());
-    while first < joints.len() {
-        // A joint changes the forces of its own arm and of the base only. The last one fills up.
-        let arm = M.arm(first);
-        let end = arm.end.min(first + WIDTH);
-        let columns: [usize; WIDTH] = array::from_fn(|c| joints[(first + c).min(end - 1)]);
-        rows.set_base(columns.map(|j| F.base[j].to_array()));
-        for a in arm {
-            rows.joints[a] = columns.map(|j| F.joints[joints[a]][j]);
+    let mut first = 0;
+    while first < M.joints().len() {
+        let left = M.arm(first).end - first;
+        if left > 2 {
+            give_way_from::<T, J, 4>(M, F, first, found);
+        } else {
+            give_way_from::<T, J, 2>(M, F, first, found);
         }
-        let answer = M.give_way(&rows, Some(first));
-        for (c, &j) in columns.iter().enumerate() {
-            found.base[j] = answer.base_column(c);
+        first += left.min(4);
+    }
+}
+
+/// The columns of `W` joints of one arm, or of those that are left of it.
+#[inline(always)]
+fn give_way_from<T: Real, const J: usize, const W: usize>(
+    M: &Elimination<T, J>,
+    F: &JointColumns<SpatialForce<T>, T, J>,
+    first: usize,
+    found: &mut JointColumns<SpatialVelocity<T>, T, J>,
+) {
+    // A joint changes the forces of its own arm and of the base only. The last one fills up.
+    let (joints, arm) = (M.joints(), M.arm(first));
+    let columns: [usize; W] = array::from_fn(|c| joints[(first + c).min(arm.end - 1)]);
+    let mut rows = Rows::zero();
+    rows.set_base(columns.map(|j| F.base[j].to_array()));
+    for a in arm {
+        rows.joints[a] = columns.map(|j| F.joints[joints[a]][j]);
+    }
+    let answer = M.give_way(&rows, Some(first));
+    for (c, &j) in columns.iter().enumerate() {
+        found.base[j] = answer.base_column(c);
+    }
+    for (row, &i) in answer.joints.iter().zip(joints) {
+        for (x, &j) in row.iter().zip(&columns) {
+            found.joints[i][j] = *x;
         }
-        for (row, &i) in answer.joints.iter().zip(joints) {
-            for (x, &j) in row.iter().zip(&columns) {
-                found.joints[i][j] = *x;
-            }
-        }
-        first = end;
     }
 }
 
@@ -132,7 +144,7 @@ fn give_way_of_base<T: Real, const J: usize>(
     found: &mut BaseColumns<SpatialVelocity<T>, T, J>,
 ) {
     // Three columns are asked for; the fourth fills up.
-    let columns: [usize; WIDTH] = [0, 1, 2, 2];
+    let columns = [0, 1, 2, 2];
     let mut rows = Rows::zero();
     rows.set_base(columns.map(|c| F.base[c].to_array()));
     for (row, &i) in rows.joints.iter_mut().zip(M.joints()) {

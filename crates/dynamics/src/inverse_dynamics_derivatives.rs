@@ -178,6 +178,14 @@ impl<T: Real> Matter<T> {
         let force = w.cross(self.flow);
         SpatialForce::new(torque + torque, force + force)
     }
+    /// What gives the torque of [`coriolis`](Self::coriolis) of w.
+    #[inline(always)]
+    fn coriolis_moment(&self) -> Mat3<T> {
+        let [x, y, z] = self.flow_moment.rows;
+        let trace = x.x + y.y + z.z;
+        let once = Sym3::diagonal(trace, trace, trace).to_mat3() - self.flow_moment;
+        once + once
+    }
     /// The transpose: its product with w is `V · coriolis(w)`.
     #[inline(always)]
     fn coriolis_transposed(&self, V: &SpatialVelocity<T>) -> Vec3<T> {
@@ -315,6 +323,29 @@ impl<T: Real, const J: usize> Bodies<T, J> {
         }
         found
     }
+    /// Add what more accelerations take.
+    #[inline(always)]
+    pub(crate) fn accelerate(
+        &self,
+        k: &Kinematics<'_, T, J>,
+        more: &GeneralizedVelocity<T, J>,
+        forces: &mut Forces<T, J>,
+    ) {
+        let mut A: PerBody<_, J> = PerBody::filled(more.base);
+        let mut F: PerBody<_, J> = PerBody::filled(self.matter.base.times(&more.base));
+        for j in k.robot.joints() {
+            A.links[j] = A[k.robot.joint(j).parent] + self.motions.links[j].S * more.joints[j];
+            F.links[j] = self.matter.links[j].times(&A.links[j]);
+            forces.A.links[j] += A.links[j];
+        }
+        for j in k.robot.joints().rev() {
+            let behind = F.links[j];
+            F[k.robot.joint(j).parent] += behind;
+            forces.F.links[j] += behind;
+        }
+        forces.A.base += A.base;
+        forces.F.base += F.base;
+    }
     /// What the base and the motors feel of the forces.
     #[inline(always)]
     pub(crate) fn project(
@@ -353,9 +384,8 @@ impl<T: Real, const J: usize> Bodies<T, J> {
 /// | `outside` | wrench on each body at its origin, in its axes | N·m, N |
 ///
 /// # Source
-/// J. Carpentier, N. Mansard, *Analytical derivatives of rigid body dynamics algorithms*, RSS 2018;
-/// S. Singh, R. Russell, P. Wensing, *Efficient analytical derivatives of rigid-body dynamics using
-/// spatial vector algebra*, IEEE Robotics and Automation Letters 7(2), 2022.
+/// [`CarpentierMansard2018`](wrasse_spatial::references::CarpentierMansard2018),
+/// [`Singh2022`](wrasse_spatial::references::Singh2022).
 #[doc(alias = "rnea derivatives")]
 pub fn inverse_dynamics_derivatives<'a, T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
@@ -403,13 +433,21 @@ impl<T: Real, const J: usize> InverseDynamicsDerivatives<T, J> {
             Sddot[j] = forces.A[parent].cross(&own.S) + V_P.cross(&own.Sdot);
             self.differentiate_joint(k, bodies, j, &Sddot, &forces.F.links[j]);
         }
-        let (V, matter) = (&bodies.motions.base.V, &bodies.carried.base);
-        for c in 0..6 {
-            let mut unit = [T::zero(); 6];
-            unit[c] = T::one();
-            let unit = SpatialVelocity::from_array(unit);
-            self.by_base_velocity.base[c] =
-                matter.times(&V.cross(&unit)) + matter.coriolis(unit.angular);
+        self.differentiate_base(&bodies.motions.base.V, &bodies.carried.base);
+    }
+    /// Of the wrench on the base, by the base's twist V.
+    #[inline(always)]
+    fn differentiate_base(&mut self, V: &SpatialVelocity<T>, all: &Matter<T>) {
+        let (turns, moves) = (V.angular.skew(), V.linear.skew());
+        let (coriolis, push) = (all.coriolis_moment(), (all.flow + all.flow).skew());
+        let columns = &mut self.by_base_velocity.base;
+        for c in 0..3 {
+            // V × S for a unit rate S about an axis; along it, it is the acceleration a.
+            let turning = SpatialVelocity::new(turns.column(c), moves.column(c));
+            let own = SpatialForce::new(coriolis.column(c), -push.column(c));
+            columns[c] = all.times(&turning) + own;
+            let a = turns.column(c);
+            columns[c + 3] = SpatialForce::new(all.first.cross(a), a * all.mass);
         }
     }
     /// All elements between joint j and the base and joints below it.

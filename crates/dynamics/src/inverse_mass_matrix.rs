@@ -23,7 +23,7 @@ pub struct InverseMassMatrix<T, const J: usize> {
 /// meaning.
 ///
 /// # Source
-/// G. Golub, C. Van Loan, *Matrix Computations*, 4th ed., Johns Hopkins, 2013, ch. 4.1 (`L D Lᵀ`).
+/// [`GolubVanLoan2013`](wrasse_spatial::references::GolubVanLoan2013) ch. 4.1 (`L D Lᵀ`).
 pub fn inverse_mass_matrix<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     M: &MassMatrix<T, J>,
@@ -116,7 +116,9 @@ impl<T: Real, const J: usize> Elimination<T, J> {
     #[inline(always)]
     pub(crate) fn inverse_into(&self, found: &mut InverseMassMatrix<T, J>) {
         found.count = self.count;
-        found.A_bb = self.A_bb.map(SpatialVelocity::from_array);
+        for (column, six) in found.A_bb.iter_mut().zip(&self.A_bb) {
+            *column = SpatialVelocity::from_array(*six);
+        }
         for a in 0..self.count {
             let j = self.joints[a];
             let mut column = [T::zero(); 6];

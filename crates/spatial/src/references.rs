@@ -90,3 +90,14 @@ pub enum CodyWaite1980 {}
 /// Journal of Dynamic Systems, Measurement, and Control 102(2), 1980.
 #[derive(Debug)]
 pub enum LuhWalkerPaul1980 {}
+/// J. Carpentier, N. Mansard, *Analytical derivatives of rigid body dynamics algorithms*, Robotics:
+/// Science and Systems, 2018.
+#[derive(Debug)]
+pub enum CarpentierMansard2018 {}
+/// S. Singh, R. Russell, P. Wensing, *Efficient analytical derivatives of rigid-body dynamics using
+/// spatial vector algebra*, IEEE Robotics and Automation Letters 7(2), 2022.
+#[derive(Debug)]
+pub enum Singh2022 {}
+/// G. Golub, C. Van Loan, *Matrix Computations*, 4th ed., Johns Hopkins, 2013.
+#[derive(Debug)]
+pub enum GolubVanLoan2013 {}
