@@ -1,5 +1,6 @@
 //! Forward dynamics, with joints driven by force or made to follow, and the base free or held.
 
+use crate::robot::within;
 use crate::{
     BodyId, Generalized, GeneralizedForce, GeneralizedVelocity, JointKind, Kinematics, Outside,
     PerBody,
@@ -134,44 +135,49 @@ impl<T: Real, const J: usize> Work for Driven<'_, T, J> {
     type Out = Dynamics<T, J>;
     #[inline(always)]
     fn run(self) -> Self::Out {
-        let mut bodies = PerBody::filled(Articulated::nothing());
-        self.load(&mut bodies);
-        for j in self.k.robot.joints().rev() {
+        let k = self.k;
+        // Two variables, not one struct: the links are large, and would be moved into it.
+        let mut base = Articulated::nothing();
+        let mut links = [Articulated::nothing(); J];
+        base.R_BL = Mat3::identity();
+        base.w_NL_B = k.state.V_NB_B.angular;
+        base.load(k.robot.inertia(BodyId::Base), Some(self.outside.base));
+        for j in k.robot.joints() {
+            // Base to tip: each body by itself, before it feels what it carries.
+            place(k, j, &base, &mut links);
+            self.load(j, &mut links[j]);
+        }
+        for j in k.robot.joints().rev() {
             // Tip to base: what the parent feels of the tree behind the joint.
-            let (link, body) = (self.k.robot.link(j), &mut bodies.links[j]);
+            let (link, body) = (k.robot.link(j), &mut links[j]);
             let (M, p) = body.felt_through(link.kind, &self.drives[j]);
             let p_LP_B = -body.p_PL_B;
-            let parent = &mut bodies[link.parent];
+            let parent = match link.parent {
+                BodyId::Base => &mut base,
+                BodyId::Link(i) => &mut links[within::<J>(i)],
+            };
             parent.M += M.about(p_LP_B);
             parent.p += p.about(p_LP_B);
         }
-        self.accelerate(&bodies)
+        self.accelerate(&base, &links)
     }
 }
 
 impl<T: Real, const J: usize> Driven<'_, T, J> {
-    /// Each body by itself, before it feels what it carries.
+    /// The matter of a link that is placed, and what pushes it.
     #[inline(always)]
-    fn load(&self, bodies: &mut PerBody<Articulated<T>, J>) {
+    fn load(&self, j: usize, body: &mut Articulated<T>) {
         let Self { k, outside, .. } = self;
-        bodies.base.R_BL = Mat3::identity();
-        bodies.base.w_NL_B = k.state.V_NB_B.angular;
-        bodies.base.load(k.robot.inertia(BodyId::Base), Some(outside.base));
-        for j in k.robot.joints() {
-            place(k, j, bodies);
-            let body = &mut bodies.links[j];
-            let (R_BL, M_L) = (body.R_BL, &k.robot.link(j).M_L);
-            let outside_B = outside
-                .on_link(k.robot, j)
-                .map(|F| SpatialForce::new(R_BL * F.torque, R_BL * F.force));
-            body.load(&M_L.in_axes(&R_BL), outside_B);
-        }
+        let (R_BL, M_L) = (body.R_BL, &k.robot.link(j).M_L);
+        let outside_B =
+            outside.on_link(k.robot, j).map(|F| SpatialForce::new(R_BL * F.torque, R_BL * F.force));
+        body.load(&M_L.in_axes(&R_BL), outside_B);
     }
     /// Base to tip: the acceleration that is left for each joint.
     #[inline(always)]
-    fn accelerate(&self, bodies: &PerBody<Articulated<T>, J>) -> Dynamics<T, J> {
+    fn accelerate(&self, base: &Articulated<T>, links: &[Articulated<T>; J]) -> Dynamics<T, J> {
         let k = self.k;
-        let (A_base, holding) = solve_base(&bodies.base, self.base);
+        let (A_base, holding) = solve_base(base, self.base);
         let mut found = Dynamics { nudot: Generalized::default(), force: Generalized::default() };
         let V_NB_B = &k.state.V_NB_B;
         let turned = V_NB_B.angular.cross(V_NB_B.linear);
@@ -179,7 +185,7 @@ impl<T: Real, const J: usize> Driven<'_, T, J> {
         found.force.base = holding;
         let mut A_NB_B = PerBody { base: A_base, links: [SpatialAcceleration::zero(); J] };
         for j in k.robot.joints() {
-            let (link, body) = (k.robot.link(j), &bodies.links[j]);
+            let (link, body) = (k.robot.link(j), &links[j]);
             let axis = body.axis(link.kind);
             let A = A_NB_B[link.parent].shifted_by(body.p_PL_B) + body.A_bias;
             let (qddot, tau) = match self.drives[j] {
@@ -216,15 +222,19 @@ pub fn forward_dynamics<'a, T: Real, const J: usize>(
 fn place<T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     j: usize,
-    bodies: &mut PerBody<Articulated<T>, J>,
+    base: &Articulated<T>,
+    links: &mut [Articulated<T>; J],
 ) {
     let (link, seat, qdot) = (k.robot.link(j), k.seat(j), k.state.v[j]);
-    let parent = &bodies[link.parent];
+    let parent = match link.parent {
+        BodyId::Base => base,
+        BodyId::Link(p) => &links[within::<J>(p)],
+    };
     let (R_BL, p_PL_B) = (seat.carried_by(&parent.R_BL), parent.R_BL * seat.p_PL_P);
     let axis = Axis { along_B: R_BL.column(2), kind: link.kind };
     let w_P = parent.w_NL_B;
     let w_NL_B = w_P + axis.motion(qdot).angular;
-    let body = &mut bodies.links[j];
+    let body = &mut links[j];
     (body.R_BL, body.p_PL_B, body.w_NL_B) = (R_BL, p_PL_B, w_NL_B);
     body.A_bias = axis.bias(w_NL_B, qdot);
     body.A_bias.linear += w_P.cross(w_P.cross(p_PL_B));

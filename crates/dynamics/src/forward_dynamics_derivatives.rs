@@ -3,8 +3,8 @@
 use crate::inverse_dynamics_derivatives::Bodies;
 use crate::inverse_mass_matrix::{Elimination, Rows};
 use crate::{
-    BaseColumns, BodyId, Generalized, GeneralizedForce, GeneralizedVelocity,
-    InverseDynamicsDerivatives, InverseMassMatrix, JointColumns, Kinematics, Outside,
+    BaseColumns, Generalized, GeneralizedForce, GeneralizedVelocity, InverseDynamicsDerivatives,
+    InverseMassMatrix, JointColumns, Kinematics, Outside,
 };
 use core::array;
 use wrasse_spatial::{Real, SpatialForce, SpatialVelocity, Vec3};
@@ -39,30 +39,14 @@ pub struct ForwardDynamicsDerivatives<T, const J: usize> {
 /// # Source
 /// [`CarpentierMansard2018`](wrasse_spatial::references::CarpentierMansard2018).
 #[doc(alias = "aba derivatives")]
+#[inline]
 pub fn forward_dynamics_derivatives<'a, T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     force: &GeneralizedForce<T, J>,
     outside: impl Into<Outside<'a, T, J>>,
 ) -> ForwardDynamicsDerivatives<T, J> {
-    let outside = outside.into();
-    // 1. The motion that the forces cause.
-    let mut taken = InverseDynamicsDerivatives::nothing(k.robot.joint_count());
-    let mut bodies = Bodies::nothing();
-    bodies.observe(k);
-    bodies.mass_matrix_into(k, &mut taken.by_acceleration);
-    let M = Elimination::new(k.robot, &taken.by_acceleration);
     let mut found = ForwardDynamicsDerivatives::nothing();
-    M.inverse_into(&mut found.by_force);
-    let mut forces = bodies.forces(k, &Generalized::default(), &outside);
-    found.nudot = found.by_force.times(&difference(force, &bodies.project(k, &forces)));
-    // 2. What more force a motion close to it would take.
-    bodies.accelerate(k, &found.nudot, &mut forces);
-    taken.differentiate(k, &bodies, &forces);
-    // 3. That force is not there: the accelerations give way.
-    give_way(&M, &taken.by_position, &mut found.by_position);
-    give_way(&M, &taken.by_rate, &mut found.by_rate);
-    let w_NB_B = k.V_NB_B(BodyId::Base).angular;
-    give_way_of_base(&M, &taken.by_base_velocity, w_NB_B, &mut found.by_base_velocity);
+    found.fill(k, force, &outside.into());
     found
 }
 
@@ -78,6 +62,31 @@ impl<T: Real, const J: usize> ForwardDynamicsDerivatives<T, J> {
             by_base_velocity: BaseColumns { base: [still; 6], joints: [[T::zero(); 6]; J] },
             by_force: InverseMassMatrix::nothing(),
         }
+    }
+    /// All of it, into a place that is zero.
+    fn fill(
+        &mut self,
+        k: &Kinematics<'_, T, J>,
+        force: &GeneralizedForce<T, J>,
+        outside: &Outside<'_, T, J>,
+    ) {
+        // 1. The motion that the forces cause.
+        let mut taken = InverseDynamicsDerivatives::nothing(k.robot.joint_count());
+        let mut bodies = Bodies::nothing();
+        bodies.observe(k);
+        bodies.mass_matrix_into(k, &mut taken.by_acceleration);
+        let M = Elimination::new(k.robot, &taken.by_acceleration);
+        M.inverse_into(&mut self.by_force);
+        let mut forces = bodies.forces(k, &Generalized::default(), outside);
+        self.nudot = self.by_force.times(&difference(force, &bodies.project(k, &forces)));
+        // 2. What more force a motion close to it would take.
+        bodies.accelerate(k, &self.nudot, &mut forces);
+        taken.differentiate(k, &bodies, &forces);
+        // 3. That force is not there: the accelerations give way.
+        give_way(&M, &taken.by_position, &mut self.by_position);
+        give_way(&M, &taken.by_rate, &mut self.by_rate);
+        let w_NB_B = k.state.V_NB_B.angular;
+        give_way_of_base(&M, &taken.by_base_velocity, w_NB_B, &mut self.by_base_velocity);
     }
 }
 

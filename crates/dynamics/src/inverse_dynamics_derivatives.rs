@@ -4,8 +4,8 @@
 //! bodies, and what a joint carries is a plain sum.
 
 use crate::{
-    BaseRows, BodyId, Generalized, GeneralizedForce, GeneralizedVelocity, JointKind, Kinematics,
-    Link, MassMatrix, Outside, PerBody, Seat,
+    BodyId, Generalized, GeneralizedForce, GeneralizedVelocity, JointKind, Kinematics, Link,
+    MassMatrix, Outside, PerBody, Seat,
 };
 use core::ops::AddAssign;
 use wrasse_spatial::{
@@ -387,18 +387,14 @@ impl<T: Real, const J: usize> Bodies<T, J> {
 /// [`CarpentierMansard2018`](wrasse_spatial::references::CarpentierMansard2018),
 /// [`Singh2022`](wrasse_spatial::references::Singh2022).
 #[doc(alias = "rnea derivatives")]
+#[inline]
 pub fn inverse_dynamics_derivatives<'a, T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     nudot: &GeneralizedVelocity<T, J>,
     outside: impl Into<Outside<'a, T, J>>,
 ) -> InverseDynamicsDerivatives<T, J> {
     let mut found = InverseDynamicsDerivatives::nothing(k.robot.joint_count());
-    let mut bodies = Bodies::nothing();
-    bodies.observe(k);
-    bodies.mass_matrix_into(k, &mut found.by_acceleration);
-    let forces = bodies.forces(k, nudot, &outside.into());
-    found.force = bodies.project(k, &forces);
-    found.differentiate(k, &bodies, &forces);
+    found.fill(k, nudot, &outside.into());
     found
 }
 
@@ -412,11 +408,22 @@ impl<T: Real, const J: usize> InverseDynamicsDerivatives<T, J> {
             by_position: JointColumns::filled(no_force),
             by_rate: JointColumns::filled(no_force),
             by_base_velocity: BaseColumns { base: [no_force; 6], joints: [[T::zero(); 6]; J] },
-            by_acceleration: MassMatrix {
-                base: BaseRows { count, M_bb: SpatialInertia::zero(), M_bj: [no_force; J] },
-                M_jj: [[T::zero(); J]; J],
-            },
+            by_acceleration: MassMatrix::nothing(count),
         }
+    }
+    /// All of it, into a place that is zero.
+    fn fill(
+        &mut self,
+        k: &Kinematics<'_, T, J>,
+        nudot: &GeneralizedVelocity<T, J>,
+        outside: &Outside<'_, T, J>,
+    ) {
+        let mut bodies = Bodies::nothing();
+        bodies.observe(k);
+        bodies.mass_matrix_into(k, &mut self.by_acceleration);
+        let forces = bodies.forces(k, nudot, outside);
+        self.force = bodies.project(k, &forces);
+        self.differentiate(k, &bodies, &forces);
     }
     /// The derivatives by positions and velocities; that by acceleration is there.
     #[inline(always)]

@@ -41,83 +41,102 @@ impl<T, const J: usize> Deref for MassMatrix<T, J> {
 /// [`Featherstone2008`](wrasse_spatial::references::Featherstone2008) ch. 6, table 6.2; ch. 9.4 for
 /// the floating base.
 #[doc(alias = "crba")]
+#[inline]
 pub fn mass_matrix<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> MassMatrix<T, J> {
-    T::apart(AllRows { k })
+    let mut M = MassMatrix::nothing(k.robot.joint_count());
+    T::apart(AllRows { k, M: &mut M });
+    M
 }
 
 /// The base's rows alone: all that momentum needs.
+#[inline]
 pub fn base_rows<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> BaseRows<T, J> {
-    T::apart(RowsOfBase { k })
+    let mut rows = BaseRows::nothing(k.robot.joint_count());
+    T::apart(RowsOfBase { k, rows: &mut rows });
+    rows
 }
 
-/// The mass matrix as a piece of work.
+/// The mass matrix as a piece of work, into a place that is zero.
 struct AllRows<'a, T, const J: usize> {
     k: &'a Kinematics<'a, T, J>,
+    M: &'a mut MassMatrix<T, J>,
 }
 
 impl<T: Real, const J: usize> Work for AllRows<'_, T, J> {
-    type Out = MassMatrix<T, J>;
+    type Out = ();
     #[inline(always)]
-    fn run(self) -> Self::Out {
-        let k = self.k;
-        let carried = composites(k);
-        let mut M_bj = [SpatialForce::zero(); J];
-        let mut M_jj = [[T::zero(); J]; J];
+    fn run(self) {
+        let Self { k, M } = self;
+        let mut carried = nothing_carried(k);
+        compose(k, &mut carried);
+        M.base.M_bb = carried.base;
         for j in k.robot.joints() {
             let link = k.robot.link(j);
             let mut F = link.momentum(&carried.links[j]);
-            M_jj[j][j] = link.project(&F);
+            M.M_jj[j][j] = link.project(&F);
             let (mut seat, mut parent) = (k.seat(j), link.parent);
             // The same momentum, as each link on the way to the base feels it.
             while let BodyId::Link(p) = parent {
                 let p = within::<J>(p);
                 F = seat.force_to_parent(&F);
                 let coupling = k.robot.link(p).project(&F);
-                M_jj[j][p] = coupling;
-                M_jj[p][j] = coupling;
+                M.M_jj[j][p] = coupling;
+                M.M_jj[p][j] = coupling;
                 (seat, parent) = (k.seat(p), k.robot.link(p).parent);
             }
-            M_bj[j] = seat.force_to_parent(&F);
+            M.base.M_bj[j] = seat.force_to_parent(&F);
         }
-        let base = BaseRows { count: k.robot.joint_count(), M_bb: carried.base, M_bj };
-        MassMatrix { base, M_jj }
     }
 }
 
-/// The base's rows as a piece of work.
+/// The base's rows as a piece of work, into a place that is zero.
 struct RowsOfBase<'a, T, const J: usize> {
     k: &'a Kinematics<'a, T, J>,
+    rows: &'a mut BaseRows<T, J>,
 }
 
 impl<T: Real, const J: usize> Work for RowsOfBase<'_, T, J> {
-    type Out = BaseRows<T, J>;
+    type Out = ();
     #[inline(always)]
-    fn run(self) -> Self::Out {
-        let k = self.k;
-        let (carried, X_BL) = (composites(k), k.link_poses(&Pose::identity()));
-        let mut M_bj = [SpatialForce::zero(); J];
+    fn run(self) {
+        let Self { k, rows } = self;
+        let mut carried = nothing_carried(k);
+        compose(k, &mut carried);
+        rows.M_bb = carried.base;
+        let mut X_BL: PerBody<_, J> = PerBody::filled(Pose::identity());
         for j in k.robot.joints() {
-            M_bj[j] = X_BL.links[j].force_to_parent(&k.robot.link(j).momentum(&carried.links[j]));
+            let link = k.robot.link(j);
+            X_BL.links[j] = k.seat(j).pose(&X_BL[link.parent]);
+            rows.M_bj[j] = X_BL.links[j].force_to_parent(&link.momentum(&carried.links[j]));
         }
-        BaseRows { count: k.robot.joint_count(), M_bb: carried.base, M_bj }
     }
 }
 
 /// What each joint carries, joints behind it locked, in the link's axes; the base's is all.
+type Composites<T, const J: usize> = PerBody<SpatialInertia<T>, J>;
+
+/// Before the links are counted in: made apart, so that it need not be moved.
 #[inline(always)]
-fn composites<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> PerBody<SpatialInertia<T>, J> {
-    let mut carried = PerBody::filled(*k.robot.inertia(BodyId::Base));
-    for j in k.robot.joints() {
-        carried.links[j] = k.robot.link(j).M_L;
-    }
+fn nothing_carried<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> Composites<T, J> {
+    PerBody { base: *k.robot.inertia(BodyId::Base), links: [SpatialInertia::zero(); J] }
+}
+
+#[inline(always)]
+fn compose<T: Real, const J: usize>(k: &Kinematics<'_, T, J>, carried: &mut Composites<T, J>) {
     for j in k.robot.joints().rev() {
+        let link = k.robot.link(j);
+        carried.links[j] += link.M_L;
         let behind = k.seat(j).inertia_to_parent(&carried.links[j]);
-        carried[k.robot.link(j).parent] += behind;
+        carried[link.parent] += behind;
     }
-    carried
 }
 
 impl<T: Real, const J: usize> BaseRows<T, J> {
+    /// All zero, of a robot with so many joints.
+    #[inline(always)]
+    fn nothing(count: usize) -> Self {
+        Self { count, M_bb: SpatialInertia::zero(), M_bj: [SpatialForce::zero(); J] }
+    }
     /// `M_bj q̇`: momentum about Bo, in base axes, of the joint rates alone (N·m·s, N·s).
     #[inline(always)]
     pub fn momentum_of_rates(&self, qdot: &[T; J]) -> SpatialForce<T> {
@@ -130,6 +149,11 @@ impl<T: Real, const J: usize> BaseRows<T, J> {
 }
 
 impl<T: Real, const J: usize> MassMatrix<T, J> {
+    /// All zero, of a robot with so many joints.
+    #[inline(always)]
+    pub(crate) fn nothing(count: usize) -> Self {
+        Self { base: BaseRows::nothing(count), M_jj: [[T::zero(); J]; J] }
+    }
     /// One element of the whole matrix; `row` and `column` in 0..6+n.
     pub fn element(&self, row: usize, column: usize) -> T {
         match (row.checked_sub(6), column.checked_sub(6)) {
