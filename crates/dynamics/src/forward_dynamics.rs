@@ -1,6 +1,5 @@
 //! Forward dynamics, with joints driven by force or made to follow, and the base free or held.
 
-use crate::robot::within;
 use crate::{
     BodyId, Generalized, GeneralizedForce, GeneralizedVelocity, JointKind, Kinematics, Outside,
     PerBody,
@@ -136,7 +135,6 @@ impl<T: Real, const J: usize> Work for Driven<'_, T, J> {
     #[inline(always)]
     fn run(self) -> Self::Out {
         let k = self.k;
-        // Two variables, not one struct: the links are large, and would be moved into it.
         let mut base = Articulated::nothing();
         let mut links = [Articulated::nothing(); J];
         base.R_BL = Mat3::identity();
@@ -152,10 +150,7 @@ impl<T: Real, const J: usize> Work for Driven<'_, T, J> {
             let (link, body) = (k.robot.link(j), &mut links[j]);
             let (M, p) = body.felt_through(link.kind, &self.drives[j]);
             let p_LP_B = -body.p_PL_B;
-            let parent = match link.parent {
-                BodyId::Base => &mut base,
-                BodyId::Link(i) => &mut links[within::<J>(i)],
-            };
+            let parent = link.parent.of_mut(&mut base, &mut links);
             parent.M += M.about(p_LP_B);
             parent.p += p.about(p_LP_B);
         }
@@ -226,10 +221,7 @@ fn place<T: Real, const J: usize>(
     links: &mut [Articulated<T>; J],
 ) {
     let (link, seat, qdot) = (k.robot.link(j), k.seat(j), k.state.v[j]);
-    let parent = match link.parent {
-        BodyId::Base => base,
-        BodyId::Link(p) => &links[within::<J>(p)],
-    };
+    let parent = link.parent.of(base, links);
     let (R_BL, p_PL_B) = (seat.carried_by(&parent.R_BL), parent.R_BL * seat.p_PL_P);
     let axis = Axis { along_B: R_BL.column(2), kind: link.kind };
     let w_P = parent.w_NL_B;

@@ -48,14 +48,15 @@ pub fn jacobian<T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     frame: &Frame<T>,
 ) -> Jacobian<T, J> {
-    let X_NL = k.link_poses(&k.state.X_NB);
-    let p_NE = X_NL[frame.body].point(k.robot.in_link(frame.body, frame.X_BF.translation));
+    let (X_NB, X_NL) = (&k.state.X_NB, k.link_poses(&k.state.X_NB));
+    let X_NC = frame.body.of(X_NB, &X_NL);
+    let p_NE = X_NC.point(k.robot.in_link(frame.body, frame.X_BF.translation));
     let mut joints = [SpatialVelocity::zero(); J];
     let mut at = frame.body;
     while let BodyId::Link(j) = at {
         let j = within::<J>(j);
         // Twist of the link for unit rate, carried to E.
-        let (link, X_NL) = (k.robot.link(j), &X_NL.links[j]);
+        let (link, X_NL) = (k.robot.link(j), &X_NL[j]);
         let axis_N = X_NL.rotation.column(2);
         joints[j] = match link.kind {
             JointKind::Revolute => {
@@ -65,7 +66,6 @@ pub fn jacobian<T: Real, const J: usize>(
         };
         at = link.parent;
     }
-    let X_NB = &k.state.X_NB;
     Jacobian { R_NB: X_NB.rotation, p_BE_N: p_NE - X_NB.translation, joints }
 }
 

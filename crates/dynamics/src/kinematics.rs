@@ -57,10 +57,10 @@ impl<'a, T: Real, const J: usize> Kinematics<'a, T, J> {
     }
     /// Poses `X_AL` of all links, seen from where the base is at `X_AB`.
     #[inline(always)]
-    pub(crate) fn link_poses(&self, X_AB: &Pose<T>) -> PerBody<Pose<T>, J> {
-        let mut X_AL = PerBody::filled(*X_AB);
+    pub(crate) fn link_poses(&self, X_AB: &Pose<T>) -> [Pose<T>; J] {
+        let mut X_AL = [*X_AB; J];
         for j in self.robot.joints() {
-            X_AL.links[j] = self.seat(j).pose(&X_AL[self.robot.link(j).parent]);
+            X_AL[j] = self.seat(j).pose(self.robot.link(j).parent.of(X_AB, &X_AL));
         }
         X_AL
     }
@@ -98,11 +98,11 @@ impl<'a, T: Real, const J: usize> Kinematics<'a, T, J> {
     /// Poses `X_NB` of all bodies.
     #[inline(always)]
     pub fn poses(&self) -> PerBody<Pose<T>, J> {
-        let mut X = self.link_poses(&self.state.X_NB);
+        let mut links = self.link_poses(&self.state.X_NB);
         for j in self.robot.joints() {
-            X.links[j].rotation = X.links[j].rotation * self.robot.link(j).R_LB;
+            links[j].rotation = links[j].rotation * self.robot.link(j).R_LB;
         }
-        X
+        PerBody { base: self.state.X_NB, links }
     }
     /// Turning rate `w_NB_B` of a body (rad/s).
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! The mass matrix, in the blocks that the theory names.
 
 use crate::robot::within;
-use crate::{BodyId, Kinematics, PerBody};
+use crate::{BodyId, Kinematics};
 use core::ops::Deref;
 use wrasse_spatial::{Pose, Real, SpatialForce, SpatialInertia, Work};
 
@@ -67,12 +67,11 @@ impl<T: Real, const J: usize> Work for AllRows<'_, T, J> {
     #[inline(always)]
     fn run(self) {
         let Self { k, M } = self;
-        let mut carried = nothing_carried(k);
-        compose(k, &mut carried);
-        M.base.M_bb = carried.base;
+        let mut carried = [SpatialInertia::zero(); J];
+        M.base.M_bb = compose(k, &mut carried);
         for j in k.robot.joints() {
             let link = k.robot.link(j);
-            let mut F = link.momentum(&carried.links[j]);
+            let mut F = link.momentum(&carried[j]);
             M.M_jj[j][j] = link.project(&F);
             let (mut seat, mut parent) = (k.seat(j), link.parent);
             // The same momentum, as each link on the way to the base feels it.
@@ -100,35 +99,33 @@ impl<T: Real, const J: usize> Work for RowsOfBase<'_, T, J> {
     #[inline(always)]
     fn run(self) {
         let Self { k, rows } = self;
-        let mut carried = nothing_carried(k);
-        compose(k, &mut carried);
-        rows.M_bb = carried.base;
-        let mut X_BL: PerBody<_, J> = PerBody::filled(Pose::identity());
+        let mut carried = [SpatialInertia::zero(); J];
+        rows.M_bb = compose(k, &mut carried);
+        let base = Pose::identity();
+        let mut X_BL = [base; J];
         for j in k.robot.joints() {
             let link = k.robot.link(j);
-            X_BL.links[j] = k.seat(j).pose(&X_BL[link.parent]);
-            rows.M_bj[j] = X_BL.links[j].force_to_parent(&link.momentum(&carried.links[j]));
+            X_BL[j] = k.seat(j).pose(link.parent.of(&base, &X_BL));
+            rows.M_bj[j] = X_BL[j].force_to_parent(&link.momentum(&carried[j]));
         }
     }
 }
 
-/// What each joint carries, joints behind it locked, in the link's axes; the base's is all.
-type Composites<T, const J: usize> = PerBody<SpatialInertia<T>, J>;
-
-/// Before the links are counted in: made apart, so that it need not be moved.
+/// What each joint carries, joints behind it locked, in the link's axes, into a place that is zero;
+/// what the base does with all is returned.
 #[inline(always)]
-fn nothing_carried<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> Composites<T, J> {
-    PerBody { base: *k.robot.inertia(BodyId::Base), links: [SpatialInertia::zero(); J] }
-}
-
-#[inline(always)]
-fn compose<T: Real, const J: usize>(k: &Kinematics<'_, T, J>, carried: &mut Composites<T, J>) {
+fn compose<T: Real, const J: usize>(
+    k: &Kinematics<'_, T, J>,
+    carried: &mut [SpatialInertia<T>; J],
+) -> SpatialInertia<T> {
+    let mut all = *k.robot.inertia(BodyId::Base);
     for j in k.robot.joints().rev() {
         let link = k.robot.link(j);
-        carried.links[j] += link.M_L;
-        let behind = k.seat(j).inertia_to_parent(&carried.links[j]);
-        carried[link.parent] += behind;
+        carried[j] += link.M_L;
+        let behind = k.seat(j).inertia_to_parent(&carried[j]);
+        *link.parent.of_mut(&mut all, carried) += behind;
     }
+    all
 }
 
 impl<T: Real, const J: usize> BaseRows<T, J> {

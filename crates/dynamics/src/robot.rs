@@ -124,6 +124,31 @@ pub(crate) fn within<const J: usize>(j: usize) -> usize {
     j.min(J.saturating_sub(1))
 }
 
+impl BodyId {
+    /// What is this body's, of the base's and the links'.
+    ///
+    /// Large things are kept so while they are worked on: in a [`PerBody`] they would be moved once.
+    #[inline(always)]
+    pub(crate) fn of<'a, E, const J: usize>(self, base: &'a E, links: &'a [E; J]) -> &'a E {
+        match self {
+            Self::Base => base,
+            Self::Link(j) => &links[within::<J>(j)],
+        }
+    }
+    /// The same, to be changed.
+    #[inline(always)]
+    pub(crate) fn of_mut<'a, E, const J: usize>(
+        self,
+        base: &'a mut E,
+        links: &'a mut [E; J],
+    ) -> &'a mut E {
+        match self {
+            Self::Base => base,
+            Self::Link(j) => &mut links[within::<J>(j)],
+        }
+    }
+}
+
 /// Something for each body: one for the base, one for each link.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PerBody<E, const J: usize> {
@@ -144,19 +169,13 @@ impl<E, const J: usize> Index<BodyId> for PerBody<E, J> {
     type Output = E;
     #[inline(always)]
     fn index(&self, body: BodyId) -> &E {
-        match body {
-            BodyId::Base => &self.base,
-            BodyId::Link(j) => &self.links[within::<J>(j)],
-        }
+        body.of(&self.base, &self.links)
     }
 }
 impl<E, const J: usize> IndexMut<BodyId> for PerBody<E, J> {
     #[inline(always)]
     fn index_mut(&mut self, body: BodyId) -> &mut E {
-        match body {
-            BodyId::Base => &mut self.base,
-            BodyId::Link(j) => &mut self.links[within::<J>(j)],
-        }
+        body.of_mut(&mut self.base, &mut self.links)
     }
 }
 
