@@ -2,7 +2,7 @@
 
 use crate::{
     BodyId, Generalized, GeneralizedForce, GeneralizedVelocity, JointKind, Kinematics, Outside,
-    Robot,
+    PerBody, Robot,
 };
 use wrasse_spatial::{Mat3, Real, SpatialForce, SpatialInertia, Vec3, Work, vec3};
 
@@ -104,15 +104,14 @@ fn own_forces<T: Real, const J: usize>(
     let (V, Vdot) = (&k.state.V_NB_B, &nudot.base);
     // From the derivative of a twist's components to what an observer measures: v̇ + w × v.
     let a = Vdot.linear + V.angular.cross(V.linear);
-    let base = Motion::new(V.angular, Vdot.angular, a);
-    let mut links = [base; J];
+    let mut motions: PerBody<_, J> = PerBody::filled(Motion::new(V.angular, Vdot.angular, a));
     let mut F_L = [SpatialForce::zero(); J];
     for j in k.robot.joints() {
-        let link = k.robot.link(j);
-        links[j] = motion_of_link(k, j, link.parent.of(&base, &links), nudot.joints[j]);
-        F_L[j] = links[j].force(&link.M_L);
+        let parent = &motions[k.robot.link(j).parent];
+        motions.links[j] = motion_of_link(k, j, parent, nudot.joints[j]);
+        F_L[j] = motions.links[j].force(&k.robot.link(j).M_L);
     }
-    (base.force(k.robot.inertia(BodyId::Base)), F_L)
+    (motions.base.force(k.robot.inertia(BodyId::Base)), F_L)
 }
 
 /// Motion of a link from that of its parent.
