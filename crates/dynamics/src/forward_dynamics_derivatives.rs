@@ -105,41 +105,54 @@ fn give_way<T: Real, const J: usize>(
     F: &JointColumns<SpatialForce<T>, T, J>,
     found: &mut JointColumns<SpatialVelocity<T>, T, J>,
 ) {
-    let mut first = 0;
+    let (mut first, mut four, mut two) =
+        (0, Columns::<T, J, 4>::nothing(), Columns::<T, J, 2>::nothing());
     while first < M.joints().len() {
         let left = M.arm(first).end - first;
         if left > 2 {
-            give_way_from::<T, J, 4>(M, F, first, found);
+            four.give_way(M, F, first, found);
         } else {
-            give_way_from::<T, J, 2>(M, F, first, found);
+            two.give_way(M, F, first, found);
         }
         first += left.min(4);
     }
 }
 
-/// The columns of `W` joints of one arm, or of those that are left of it.
-#[inline(always)]
-fn give_way_from<T: Real, const J: usize, const W: usize>(
-    M: &Elimination<T, J>,
-    F: &JointColumns<SpatialForce<T>, T, J>,
-    first: usize,
-    found: &mut JointColumns<SpatialVelocity<T>, T, J>,
-) {
-    // A joint changes the forces of its own arm and of the base only. The last one fills up.
-    let (joints, arm) = (M.joints(), M.arm(first));
-    let columns: [usize; W] = array::from_fn(|c| joints[(first + c).min(arm.end - 1)]);
-    let mut rows = Rows::zero();
-    rows.set_base(columns.map(|j| F.base[j].to_array()));
-    for a in arm {
-        rows.joints[a] = columns.map(|j| F.joints[joints[a]][j]);
+/// Some columns, and what becomes of them: a place that is used again and again.
+struct Columns<T, const J: usize, const W: usize> {
+    F: Rows<T, J, W>,
+    answer: Rows<T, J, W>,
+}
+
+impl<T: Real, const J: usize, const W: usize> Columns<T, J, W> {
+    #[inline(always)]
+    fn nothing() -> Self {
+        Self { F: Rows::zero(), answer: Rows::zero() }
     }
-    let answer = M.give_way(&rows, Some(first));
-    for (c, &j) in columns.iter().enumerate() {
-        found.base[j] = answer.base_column(c);
-    }
-    for (row, &i) in answer.joints.iter().zip(joints) {
-        for (x, &j) in row.iter().zip(&columns) {
-            found.joints[i][j] = *x;
+    /// The columns of the joint in a place and of those behind it in its arm.
+    #[inline(always)]
+    fn give_way(
+        &mut self,
+        M: &Elimination<T, J>,
+        F: &JointColumns<SpatialForce<T>, T, J>,
+        first: usize,
+        found: &mut JointColumns<SpatialVelocity<T>, T, J>,
+    ) {
+        // A joint changes the forces of its own arm and of the base only. The last one fills up.
+        let (joints, arm) = (M.joints(), M.arm(first));
+        let columns: [usize; W] = array::from_fn(|c| joints[(first + c).min(arm.end - 1)]);
+        self.F.set_base(columns.map(|j| F.base[j].to_array()));
+        for a in arm {
+            self.F.joints[a] = columns.map(|j| F.joints[joints[a]][j]);
+        }
+        M.give_way(&self.F, Some(first), &mut self.answer);
+        for (c, &j) in columns.iter().enumerate() {
+            found.base[j] = self.answer.base_column(c);
+        }
+        for (row, &i) in self.answer.joints.iter().zip(joints) {
+            for (x, &j) in row.iter().zip(&columns) {
+                found.joints[i][j] = *x;
+            }
         }
     }
 }
@@ -154,12 +167,12 @@ fn give_way_of_base<T: Real, const J: usize>(
 ) {
     // Three columns are asked for; the fourth fills up.
     let columns = [0, 1, 2, 2];
-    let mut rows = Rows::zero();
+    let Columns { F: mut rows, mut answer } = Columns::nothing();
     rows.set_base(columns.map(|c| F.base[c].to_array()));
     for (row, &i) in rows.joints.iter_mut().zip(M.joints()) {
         *row = columns.map(|c| F.joints[i][c]);
     }
-    let answer = M.give_way(&rows, None);
+    M.give_way(&rows, None, &mut answer);
     // A uniform velocity changes no acceleration in inertial axes, so in the base's it turns with
     // them: v̇ = -w × v.
     let turns = w_NB_B.skew();

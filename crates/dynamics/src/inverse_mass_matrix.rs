@@ -1,6 +1,8 @@
 //! The inverse of the mass matrix: accelerations per unit force.
 
 use crate::{BodyId, Generalized, GeneralizedForce, GeneralizedVelocity, MassMatrix, Robot};
+use core::array;
+use core::cmp::Ordering;
 use core::ops::Range;
 use wrasse_spatial::{Real, SpatialVelocity};
 
@@ -154,15 +156,16 @@ impl<T: Real, const J: usize> Elimination<T, J> {
         &self,
         F: &Rows<T, J, W>,
         place: Option<usize>,
-    ) -> Rows<T, J, W> {
+        found: &mut Rows<T, J, W>,
+    ) {
         let span = place.map_or(Span { first: 0, end: self.count }, |a| self.arms[a]);
-        let mut found = Rows::zero();
         let mut wrench = F.base;
         for (z, row) in span.of(&self.Z).iter().zip(span.of(&F.joints)) {
             for r in 0..6 {
                 take(&mut wrench[r], z[r], row);
             }
         }
+        found.base = [[T::zero(); W]; 6];
         for c in 0..6 {
             for r in 0..6 {
                 take(&mut found.base[r], self.A_bb[c][r], &wrench[c]);
@@ -181,7 +184,6 @@ impl<T: Real, const J: usize> Elimination<T, J> {
             }
             found.joints[a] = row;
         }
-        found
     }
 }
 
@@ -264,17 +266,23 @@ fn inverse<T: Real, const N: usize>(
     n: usize,
     block: impl Fn(usize) -> Span,
 ) -> [[T; N]; N] {
-    // H = L U with U = D Lᵀ, X = L⁻¹; H⁻¹ is the sum of x xᵀ/d over the rows x of X. Whole rows,
-    // zeros too: their length is known when this is compiled.
-    let (mut U, mut X, mut found) = (*H, [[T::zero(); N]; N], [[T::zero(); N]; N]);
+    // H = L U with U = D Lᵀ, X = L⁻¹; H⁻¹ is the sum of x xᵀ/d over the rows x of X. Row by row X takes
+    // the place of H, and U is in what is left. Whole rows, zeros too: their length is known when this
+    // is compiled.
+    let (mut rest, mut found) = (*H, [[T::zero(); N]; N]);
     for k in 0..n.min(N) {
-        X[k][k] = T::one();
-        let (u, x, per_pivot) = (U[k], X[k], T::one() / U[k][k]);
-        for i in k + 1..block(k).end.min(N) {
-            let l = U[i][k] * per_pivot;
-            take(&mut U[i], l, &u);
-            take(&mut X[i], l, &x);
+        let u = rest[k];
+        let per_pivot = T::one() / u[k];
+        for row in &mut rest[k + 1..block(k).end.min(N)] {
+            let l = row[k] * per_pivot;
+            take(row, l, &u);
+            row[k] = -l;
         }
+        let x: [T; N] = array::from_fn(|c| match c.cmp(&k) {
+            Ordering::Less => u[c],
+            Ordering::Equal => T::one(),
+            Ordering::Greater => T::zero(),
+        });
         let reached = block(k).first..=k;
         for (row, s) in found[reached.clone()].iter_mut().zip(&x[reached]) {
             take(row, -(*s * per_pivot), &x);
