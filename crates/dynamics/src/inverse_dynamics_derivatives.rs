@@ -3,6 +3,7 @@
 //! Everything is about the base's origin Bo in base axes, so nothing is turned or shifted between
 //! bodies, and what a joint carries is a plain sum.
 
+use crate::robot::within;
 use crate::{
     BodyId, Generalized, GeneralizedForce, GeneralizedVelocity, JointKind, Kinematics, Link,
     MassMatrix, Outside, PerBody, Seat,
@@ -323,7 +324,8 @@ impl<T: Real, const J: usize> Bodies<T, J> {
         }
         found
     }
-    /// Add what more accelerations take.
+    /// Add what more accelerations take of the links. The force on the base is left as it was: no
+    /// derivative asks for it.
     #[inline(always)]
     pub(crate) fn accelerate(
         &self,
@@ -331,20 +333,21 @@ impl<T: Real, const J: usize> Bodies<T, J> {
         more: &GeneralizedVelocity<T, J>,
         forces: &mut Forces<T, J>,
     ) {
-        let mut A: PerBody<_, J> = PerBody::filled(more.base);
-        let mut F: PerBody<_, J> = PerBody::filled(self.matter.base.times(&more.base));
+        let (mut A, mut F) = ([more.base; J], [SpatialForce::zero(); J]);
         for j in k.robot.joints() {
-            A.links[j] = A[k.robot.joint(j).parent] + self.motions.links[j].S * more.joints[j];
-            F.links[j] = self.matter.links[j].times(&A.links[j]);
-            forces.A.links[j] += A.links[j];
+            let A_P = *k.robot.joint(j).parent.of(&more.base, &A);
+            A[j] = A_P + self.motions.links[j].S * more.joints[j];
+            F[j] = self.matter.links[j].times(&A[j]);
+            forces.A.links[j] += A[j];
         }
         for j in k.robot.joints().rev() {
-            let behind = F.links[j];
-            F[k.robot.joint(j).parent] += behind;
+            let behind = F[j];
             forces.F.links[j] += behind;
+            if let BodyId::Link(p) = k.robot.joint(j).parent {
+                F[within::<J>(p)] += behind;
+            }
         }
-        forces.A.base += A.base;
-        forces.F.base += F.base;
+        forces.A.base += more.base;
     }
     /// What the base and the motors feel of the forces.
     #[inline(always)]
