@@ -10,9 +10,9 @@ use crate::phase::Phase;
 use crate::resolved_motion::{Assignment, JointUse};
 use crate::sequence::BadPhase;
 use crate::steering::Unit;
-use wrasse_dynamics::Robot;
+use wrasse_dynamics::{Frame, Robot};
 use wrasse_hardware::JointLimits;
-use wrasse_spatial::{Pose, Scalar};
+use wrasse_spatial::{Pose, Quat, Real, Scalar};
 
 /// How a flight computer is set up.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,6 +31,43 @@ pub struct Setup<T, const J: usize> {
     pub tuning: Tuning<T>,
     /// Limits of the joints.
     pub limits: [JointLimits<T>; J],
+}
+
+impl<const J: usize> Setup<f64, J> {
+    /// The same setup over another scalar, without estimators, steering and position hold: those decide.
+    pub fn bare<T: Real>(&self) -> Setup<T, J> {
+        let c = T::from_f64;
+        let Assignment { tool, axes, task, law, damped_below } = self.assignment;
+        let tool = Frame { body: tool.body, X_BF: Pose::from_f64(&tool.X_BF) };
+        let quat = self.base.quat_ND;
+        let quat_ND = Quat::new(c(quat.w), c(quat.x), c(quat.y), c(quat.z));
+        let (use_, tuning) = (&self.joints, &self.tuning);
+        Setup {
+            assignment: Assignment { tool, axes, task, law, damped_below: c(damped_below) },
+            joints: JointUse {
+                gain: c(use_.gain),
+                gain_rate: c(use_.gain_rate),
+                posture: use_.posture.map(c),
+                rate_limit: use_.rate_limit.map(c),
+            },
+            base: BaseControlSetup::ideal(self.base.feedforward, quat_ND),
+            navigation: NavigationSetup::perfect(),
+            measurement: self.measurement,
+            tuning: Tuning {
+                period: c(tuning.period),
+                tool_gain: c(tuning.tool_gain),
+                joint_bandwidth: c(tuning.joint_bandwidth),
+                joint_damping: c(tuning.joint_damping),
+                attitude_bandwidth: c(tuning.attitude_bandwidth),
+                attitude_damping: c(tuning.attitude_damping),
+            },
+            limits: self.limits.map(|l| JointLimits {
+                travel: l.travel.map(|(lower, upper)| (c(lower), c(upper))),
+                rate: l.rate.map(c),
+                effort: l.effort.map(c),
+            }),
+        }
+    }
 }
 
 /// What flies: one call per control period.

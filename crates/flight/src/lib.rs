@@ -30,7 +30,6 @@ mod phase;
 mod posture;
 mod resolved_motion;
 mod sequence;
-mod side_by_side;
 mod tool_pose;
 mod tool_wrench;
 
@@ -54,6 +53,5 @@ pub use resolved_motion::{
     resolved_motion, task_jacobian,
 };
 pub use sequence::{BadPhase, LONGEST, NoWay};
-pub use side_by_side::{asked_side_by_side, states_side_by_side};
 pub use tool_pose::{Unreachable, joints_for_tool};
 pub use tool_wrench::against_tool_wrench;

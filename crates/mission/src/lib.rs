@@ -36,7 +36,6 @@ mod sampled_case;
 mod sampling;
 mod saturations;
 mod sensing;
-mod side_by_side;
 mod telemetry;
 mod telling;
 
@@ -48,4 +47,4 @@ pub use outcome::{
 };
 pub use read_mission::{mission_schema, read_mission};
 pub use run::{Progress, RunOptions, run, run_case};
-pub use sample::{SampleOutcome, SamplePlan, fly_chunk, fly_chunk_on, fly_sample, plan_samples};
+pub use sample::{SampleOutcome, SamplePlan, fly_sample, plan_samples};

@@ -12,15 +12,8 @@ use crate::outcome::{End, Verdict};
 use crate::plan::{Plan, plan};
 use crate::quantity::Watch;
 use crate::requirement::Requirement;
-use crate::side_by_side::{LANES, flies_side_by_side, fly_side_by_side};
 use std::borrow::Cow;
 use std::fmt::Write;
-use std::ops::Range;
-use wrasse_lanes::Level;
-
-/// Fewest samples that are worth a formation: it takes as long as some flights alone, however many
-/// lanes are filled.
-const FEWEST: usize = 3;
 
 /// What came of a sample.
 #[derive(Debug, Clone)]
@@ -166,7 +159,7 @@ impl<'p> Prepared<'p> {
         };
         Self { sample, deviations, case, plan }
     }
-    fn fly_alone(self, planned: &SamplePlan<'_>) -> SampleOutcome {
+    fn flown(self, planned: &SamplePlan<'_>) -> SampleOutcome {
         if let Some(end) = self.plan.blocked.clone() {
             let verdicts = self.case.requirements.iter().map(Requirement::unanswered).collect();
             let Self { sample, deviations, .. } = self;
@@ -191,72 +184,9 @@ impl<'p> Prepared<'p> {
     }
 }
 
-impl SamplePlan<'_> {
-    /// Whether its samples fly side by side in the lanes of the processor.
-    pub fn flies_side_by_side(&self) -> bool {
-        flies_side_by_side(self.case)
-    }
-}
-
 /// Fly one sample of a seed.
 pub fn fly_sample(planned: &SamplePlan<'_>, seed: u64, sample: u64) -> SampleOutcome {
-    Prepared::new(planned, seed, sample).fly_alone(planned)
-}
-
-/// Fly some samples of a seed, in order: side by side where they can, each with the bits that it has
-/// alone.
-pub fn fly_chunk(planned: &SamplePlan<'_>, seed: u64, samples: Range<u64>) -> Vec<SampleOutcome> {
-    fly_chunk_on(Level::best(), planned, seed, samples)
-}
-
-/// The same on one level of the processor.
-pub fn fly_chunk_on(
-    level: Level,
-    planned: &SamplePlan<'_>,
-    seed: u64,
-    samples: Range<u64>,
-) -> Vec<SampleOutcome> {
-    let (mut outcomes, mut waiting) = (vec![], vec![]);
-    for sample in samples {
-        let prepared = Prepared::new(planned, seed, sample);
-        if planned.flies_side_by_side() && prepared.plan.blocked.is_none() {
-            waiting.push(prepared);
-        } else {
-            outcomes.push(prepared.fly_alone(planned));
-        }
-        if waiting.len() == LANES {
-            outcomes.extend(fly_together(level, planned, std::mem::take(&mut waiting)));
-        }
-    }
-    outcomes.extend(fly_together(level, planned, waiting));
-    outcomes.sort_by_key(|outcome| outcome.sample);
-    outcomes
-}
-
-/// Fly a few samples in one formation, those that cannot keep up alone. Lanes that are left over repeat
-/// the last.
-fn fly_together(
-    level: Level,
-    planned: &SamplePlan<'_>,
-    samples: Vec<Prepared<'_>>,
-) -> Vec<SampleOutcome> {
-    if samples.len() < FEWEST {
-        return samples.into_iter().map(|sample| sample.fly_alone(planned)).collect();
-    }
-    let flown = fly_side_by_side(
-        planned,
-        core::array::from_fn(|i| {
-            let prepared = &samples[i.min(samples.len() - 1)];
-            (&prepared.case, &*prepared.plan)
-        }),
-        level,
-    );
-    let each = samples.into_iter().zip(flown);
-    each.map(|(sample, flown)| match flown {
-        Some(flown) => sample.judged(flown),
-        None => sample.fly_alone(planned),
-    })
-    .collect()
+    Prepared::new(planned, seed, sample).flown(planned)
 }
 
 /// Fly a case as planned, and look only at what is required: how it ended, what was seen, and whether

@@ -1,4 +1,4 @@
-//! Samples flown side by side: the same bits for any number of threads.
+//! Samples flown by several threads: the same bits for any number of them.
 
 use crate::outcome::SweepOutcome;
 use crate::parts::{Parts, SweepError};
@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
-use wrasse_mission::{Mission, SamplePlan, fly_chunk, plan_samples};
+use wrasse_mission::{Mission, SamplePlan, fly_sample, plan_samples};
 
 /// What a sweep is asked to do.
 #[derive(Debug, Clone, Copy)]
@@ -32,7 +32,7 @@ struct Chunk {
 }
 
 /// Least and most samples in a chunk. What is interrupted in one is flown again; fewer than these in a
-/// file make many files, and eight fill the lanes of a processor.
+/// file make many files.
 const CHUNK: (u64, u64) = (8, 64);
 
 /// Chunks for each thread, if there are samples enough: what an interruption costs is at most one of them.
@@ -87,8 +87,8 @@ impl Sweep<'_> {
     ) {
         while let Some(chunk) = chunks.get(next.fetch_add(1, Ordering::Relaxed)) {
             let Some(plan) = &plans[chunk.case] else { break };
-            let flown = fly_chunk(plan, self.seed, chunk.samples.clone());
-            let rows = flown.into_iter().map(|outcome| Row::of(chunk.case, outcome)).collect();
+            let flown = chunk.samples.clone().map(|sample| fly_sample(plan, self.seed, sample));
+            let rows = flown.map(|outcome| Row::of(chunk.case, outcome)).collect();
             if tell.send(rows).is_err() {
                 break;
             }

@@ -1,5 +1,5 @@
-//! A vehicle in free space with nothing bolted to it: how it moves and what moves it, for one vehicle
-//! or for several side by side. The world adds wheels, gyros, thrusters and what pushes from outside.
+//! A vehicle in free space with nothing bolted to it: how it moves and what moves it. The world adds
+//! wheels, gyros, thrusters and what pushes from outside.
 
 use crate::flow::Flow;
 use crate::setup::{BaseAttitude, Drive};
@@ -10,7 +10,7 @@ use wrasse_dynamics::{
     kinematics,
 };
 use wrasse_spatial::{
-    Pose, Real, SpatialForce, SpatialVelocity, Vec3, Work, rotation_vector_rate, turned_by,
+    Pose, Real, SpatialForce, SpatialVelocity, Vec3, rotation_vector_rate, turned_by,
 };
 
 /// A vehicle and what drives it.
@@ -46,7 +46,9 @@ impl<T: Real, const J: usize> FreeFlight<'_, T, J> {
         inside_B: Vec3<T>,
         t: f64,
     ) -> State<T, J> {
-        T::apart(Expand { vehicle: self, system, inside_B, t })
+        let posture = self.posture(system, t);
+        let bent = kinematics(self.robot, &posture);
+        self.moving(&bent, system, inside_B)
     }
 
     /// The joints' state that a system state means, `t` (s) into the current set-points.
@@ -113,19 +115,6 @@ impl<T: Real, const J: usize> FreeFlight<'_, T, J> {
         driven_dynamics(k, &drives, self.base.mode(), outside)
     }
 
-    /// Accelerations and forces in a state, with nothing bolted on.
-    #[inline(always)]
-    pub(crate) fn bare_dynamics(&self, state: &State<T, J>, t: f64) -> Dynamics<T, J> {
-        T::apart(BareDynamics { vehicle: self, state, t })
-    }
-
-    /// Rates of the flow at displacement `d` from a system state, `t` (s) into the set-points, with
-    /// nothing bolted on.
-    #[inline(always)]
-    pub(crate) fn rates(&self, from: &SystemState<J, T>, d: &Flow<J, T>, t: f64) -> Flow<J, T> {
-        T::apart(Rates { vehicle: self, from, d, t })
-    }
-
     /// Rates of the flow at displacement `d`, where drives, actuator and what turns the base are all
     /// that acts.
     #[inline(always)]
@@ -181,64 +170,6 @@ impl<T: Real, const J: usize> FreeFlight<'_, T, J> {
         add_vector(&mut s.angular, d.angular, &mut carry.angular);
         add_vector(&mut booked.from_actuator, d.from_actuator, &mut carry.from_actuator);
         add_vector(&mut booked.work, d.work, &mut carry.work);
-    }
-}
-
-/// The state that a system state means.
-struct Expand<'a, T, const J: usize> {
-    vehicle: &'a FreeFlight<'a, T, J>,
-    system: &'a SystemState<J, T>,
-    inside_B: Vec3<T>,
-    t: f64,
-}
-
-impl<T: Real, const J: usize> Work for Expand<'_, T, J> {
-    type Out = State<T, J>;
-    #[inline(always)]
-    fn run(self) -> State<T, J> {
-        let posture = self.vehicle.posture(self.system, self.t);
-        let bent = kinematics(self.vehicle.robot, &posture);
-        self.vehicle.moving(&bent, self.system, self.inside_B)
-    }
-}
-
-/// Accelerations and forces of a vehicle with nothing bolted on.
-struct BareDynamics<'a, T, const J: usize> {
-    vehicle: &'a FreeFlight<'a, T, J>,
-    state: &'a State<T, J>,
-    t: f64,
-}
-
-impl<T: Real, const J: usize> Work for BareDynamics<'_, T, J> {
-    type Out = Dynamics<T, J>;
-    #[inline(always)]
-    fn run(self) -> Dynamics<T, J> {
-        let k = kinematics(self.vehicle.robot, self.state);
-        let nothing = (Vec3::zero(), SpatialForce::zero());
-        self.vehicle.dynamics(&k, self.t, nothing, Outside::nothing())
-    }
-}
-
-/// Rates of the flow of a vehicle with nothing bolted on.
-struct Rates<'a, T, const J: usize> {
-    vehicle: &'a FreeFlight<'a, T, J>,
-    from: &'a SystemState<J, T>,
-    d: &'a Flow<J, T>,
-    t: f64,
-}
-
-impl<T: Real, const J: usize> Work for Rates<'_, T, J> {
-    type Out = Flow<J, T>;
-    #[inline(always)]
-    fn run(self) -> Flow<J, T> {
-        let Self { vehicle, from, d, t } = self;
-        let system = from.displaced(d);
-        let posture = vehicle.posture(&system, t);
-        let bent = kinematics(vehicle.robot, &posture);
-        let state = vehicle.moving(&bent, &system, Vec3::zero());
-        let nothing = (Vec3::zero(), SpatialForce::zero());
-        let found = vehicle.dynamics(&bent.moving_as(&state), t, nothing, Outside::nothing());
-        vehicle.flow(&system, d, &state, &found, Vec3::zero())
     }
 }
 

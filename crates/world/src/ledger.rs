@@ -6,7 +6,7 @@ use crate::free_body::FreeBody;
 use crate::propellant::Carried;
 use crate::world::World;
 use wrasse_dynamics::{Kinematics, PerBody, Robot, State, kinematics, kinetic_energy};
-use wrasse_spatial::{Pose, Real, SpatialInertia, SpatialVelocity, Vec3, Work};
+use wrasse_spatial::{Pose, Real, SpatialInertia, SpatialVelocity, Vec3};
 
 /// Momentum and energy at one instant, from poses and twists alone.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -94,30 +94,6 @@ fn part(body: &FreeBody) -> Part<f64> {
     let h_T = M * body.twist();
     let about_cm = h_T.about(M.centre_of_mass()).torque;
     Part { mass: M.mass, p_cm: body.p_NTcm_N, linear: R_NT * h_T.force, angular: R_NT * about_cm }
-}
-
-/// Momentum and energy of a vehicle in a state, with nothing bolted on and nothing beside it.
-#[inline(always)]
-pub(crate) fn account<T: Real, const J: usize>(
-    robot: &Robot<T, J>,
-    state: &State<T, J>,
-) -> Account<T> {
-    T::apart(Accounting { robot, state })
-}
-
-/// The account of a vehicle alone.
-struct Accounting<'a, T, const J: usize> {
-    robot: &'a Robot<T, J>,
-    state: &'a State<T, J>,
-}
-
-impl<T: Real, const J: usize> Work for Accounting<'_, T, J> {
-    type Out = Account<T>;
-    #[inline(always)]
-    fn run(self) -> Account<T> {
-        let k = kinematics(self.robot, self.state);
-        together(self.robot, &own(&k), core::iter::empty, kinetic_energy(&k))
-    }
 }
 
 /// The bodies of a vehicle, one by one.

@@ -49,9 +49,6 @@ impl Thrusters {
             noise: streams.map(|stream| Noise::new(seed, stream)).collect(),
         }
     }
-    pub(crate) fn is_empty(&self) -> bool {
-        self.list.is_empty()
-    }
     /// A valve moves no more, from the next command on.
     pub(crate) fn jam(&mut self, i: usize, jammed: Jammed) {
         if i < self.list.len() {

@@ -280,11 +280,6 @@ impl<const J: usize> World<J> {
         let wrench = self.outside.as_ref()?;
         Some(wrench(Instant { time: self.period_start + t, within }, k))
     }
-
-    /// Whether anything pushes from outside.
-    pub(crate) fn is_pushed(&self) -> bool {
-        self.outside.is_some()
-    }
     /// Pose `X_NF` of a frame now.
     pub fn pose(&self, frame: &Frame<f64>) -> Pose<f64> {
         kinematics(&self.robot, &self.state()).pose(frame)

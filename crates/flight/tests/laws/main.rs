@@ -23,7 +23,6 @@ mod feedforward;
 mod flights;
 mod postures;
 mod resolved_motion;
-mod side_by_side;
 mod singular_postures;
 mod tool_pose;
 mod tool_wrench;
