@@ -1,15 +1,14 @@
 //! Attitude control: proportional and derivative on the quaternion error, plus what is fed forward.
 
 use crate::law::Tuning;
-use wrasse_spatial::{Quat, Real, Sym3, Vec3};
+use wrasse_spatial::{Quat, Real, Vec3};
 
-/// Torque (N·m, base axes) that turns the base back: `I (2 ω² ε - 2ζω w)`, with ε the vector part of
-/// the error quaternion on its shorter side (half the angle).
+/// Angular acceleration (rad/s², base axes) that turns the base back: `2 ω² ε - 2ζω w`, with ε the
+/// vector part of the error quaternion on its shorter side (half the angle).
 ///
 /// # Arguments
 /// | name | meaning | unit |
 /// |---|---|---|
-/// | `I_Scm_B` | inertia of the whole system with joints locked, base axes | kg·m² |
 /// | `quat_NB` | measured attitude | – |
 /// | `w_NB_B` | measured rate, base axes | rad/s |
 /// | `quat_ND` | wanted attitude, at rest | – |
@@ -17,9 +16,8 @@ use wrasse_spatial::{Quat, Real, Sym3, Vec3};
 /// # Source
 /// [`Wie2008`](wrasse_spatial::references::Wie2008) ch. 7: quaternion feedback.
 #[inline(always)]
-pub fn attitude_torque<T: Real>(
+pub fn attitude_acceleration<T: Real>(
     tuning: &Tuning<T>,
-    I_Scm_B: &Sym3<T>,
     quat_NB: &Quat<T>,
     w_NB_B: Vec3<T>,
     quat_ND: &Quat<T>,
@@ -29,5 +27,5 @@ pub fn attitude_torque<T: Real>(
     let two = T::from_f64(2.0);
     let stiffness = tuning.attitude_bandwidth * tuning.attitude_bandwidth;
     let damping = two * tuning.attitude_damping * tuning.attitude_bandwidth;
-    *I_Scm_B * (error.vector() * (side * two * stiffness) - w_NB_B * damping)
+    error.vector() * (side * two * stiffness) - w_NB_B * damping
 }

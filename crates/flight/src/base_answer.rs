@@ -39,9 +39,9 @@ impl<T: Real, const J: usize> BaseAnswer<T, J> {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Carried<T, const J: usize> {
     links: [SpatialInertia<T>; J],
-    base: SpatialInertia<T>,
+    pub(crate) base: SpatialInertia<T>,
     /// Momentum for unit rate of each joint, the base at rest; the linear part, where only that counts.
-    momenta: [SpatialMomentum<T>; J],
+    pub(crate) momenta: [SpatialMomentum<T>; J],
 }
 
 impl<T: Real, const J: usize> Carried<T, J> {

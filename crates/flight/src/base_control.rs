@@ -4,7 +4,7 @@ use crate::law::{Feedforward, Tuning};
 use crate::period_command::Told;
 use crate::steering::{Needs, Steered, Steering, SteeringSetup, Unit};
 use wrasse_dynamics::{Robot, State, kinematics, momentum};
-use wrasse_hardware::ActuatorReadings;
+use wrasse_hardware::{ActuatorReadings, AttitudeActuator};
 use wrasse_spatial::{Quat, Real, Scalar, SpatialForce, Vec3};
 
 /// How the centre of mass of the system is kept where it was at the start.
@@ -25,14 +25,36 @@ pub struct BaseControlSetup<T> {
     pub quat_ND: Quat<T>,
     /// Whether and how the centre of mass is kept in its place.
     pub position_hold: Option<PositionHold<T>>,
-    /// The actuators and how they are steered; without them the torque goes to an ideal actuator.
-    pub steering: Option<SteeringSetup<T>>,
+    /// What turns the base.
+    pub actuation: Actuation<T>,
+}
+
+/// What turns the base, as far as the flight computer is concerned.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Actuation<T> {
+    /// Nothing that it steers: the base floats, or is held by something else.
+    None,
+    /// An ideal actuator, within limits if it has them.
+    Ideal(Option<AttitudeActuator<T>>),
+    /// Wheels, gyros and thrusters, and how they are steered.
+    Fitted(SteeringSetup<T>),
+}
+
+impl<T> Actuation<T> {
+    /// The actuators and how they are steered, if there are any.
+    pub fn steering(&self) -> Option<&SteeringSetup<T>> {
+        match self {
+            Self::Fitted(steering) => Some(steering),
+            Self::None | Self::Ideal(_) => None,
+        }
+    }
 }
 
 impl<T: Real> BaseControlSetup<T> {
-    /// The attitude `quat_ND` kept by an ideal actuator; the base goes where the arm pushes it.
+    /// The attitude `quat_ND` kept by an ideal actuator without limits; the base goes where the arm
+    /// pushes it.
     pub fn ideal(feedforward: Feedforward, quat_ND: Quat<T>) -> Self {
-        Self { feedforward, quat_ND, position_hold: None, steering: None }
+        Self { feedforward, quat_ND, position_hold: None, actuation: Actuation::Ideal(None) }
     }
 }
 
@@ -41,6 +63,8 @@ impl<T: Real> BaseControlSetup<T> {
 pub(crate) struct BaseControl<T> {
     setup: BaseControlSetup<T>,
     steering: Option<Steering<T>>,
+    /// Momentum that an ideal actuator stores by what it was told, base axes (N·m·s).
+    stored_B: Vec3<T>,
     home: Option<Home<T>>,
 }
 
@@ -57,10 +81,12 @@ struct Home<T> {
 
 impl<T: Scalar> BaseControl<T> {
     pub(crate) fn new(setup: BaseControlSetup<T>) -> Self {
-        Self { steering: setup.steering.as_ref().map(Steering::new), setup, home: None }
+        let steering = setup.actuation.steering().map(Steering::new);
+        Self { steering, setup, stored_B: Vec3::zero(), home: None }
     }
 
-    /// What the actuators are told so that the base feels what it was `told` to.
+    /// What the actuators are told so that the base feels what it was `told` to, and the torque that it
+    /// will not feel for all that (N·m, base axes).
     pub(crate) fn command<const J: usize>(
         &mut self,
         robot: &Robot<T, J>,
@@ -68,15 +94,30 @@ impl<T: Scalar> BaseControl<T> {
         told: &Told<T, J>,
         sensed: &State<T, J>,
         readings: &ActuatorReadings<T>,
-    ) -> Steered<T> {
+    ) -> (Steered<T>, Vec3<T>) {
         let mut force_B = self.holding_force(robot, sensed, tuning.period);
         if self.setup.position_hold.is_some() {
             force_B += told.ahead_force_B;
         }
-        let Some(steering) = &mut self.steering else { return Steered::nothing() };
+        let w_NB_B = sensed.V_NB_B.angular;
+        let Some(steering) = &mut self.steering else {
+            let given_B = self.ideal_torque(told.attitude_torque_B, w_NB_B, tuning.period);
+            return (Steered::nothing(), told.attitude_torque_B - given_B);
+        };
         let wanted = SpatialForce::new(told.attitude_torque_B, force_B);
-        let (w_NB_B, p_BScm_B) = (sensed.V_NB_B.angular, told.M_B.centre_of_mass());
-        steering.steer(&Needs { wanted, w_NB_B, p_BScm_B, period: tuning.period }, readings)
+        let p_BScm_B = told.M_B.centre_of_mass();
+        let needs = Needs { wanted, w_NB_B, p_BScm_B, period: tuning.period };
+        let steered = steering.steer(&needs, readings);
+        (steered, told.attitude_torque_B - steered.expected_B)
+    }
+
+    /// Torque that an ideal actuator gives of the one that is wanted (N·m, base axes).
+    fn ideal_torque(&mut self, wanted_B: Vec3<T>, w_NB_B: Vec3<T>, period: T) -> Vec3<T> {
+        let Actuation::Ideal(Some(limits)) = self.setup.actuation else { return wanted_B };
+        let carried_B = w_NB_B.cross(self.stored_B);
+        let given_B = limits.given(wanted_B, (self.stored_B, carried_B), period, |_, _| {});
+        self.stored_B -= (given_B + carried_B) * period;
+        given_B
     }
 
     /// Force that brings the centre of mass back to where it was, base axes (N).

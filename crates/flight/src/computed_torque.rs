@@ -27,6 +27,24 @@ pub fn computed_torque<T: Real, const J: usize>(
     T::apart(Torque { robot, law, tuning, sensed, now, acceleration })
 }
 
+/// Acceleration of each joint that its loop asks for (rad/s², m/s²): `2ζω ė + ω² e`.
+#[inline(always)]
+pub(crate) fn joint_feedback<T: Real, const J: usize>(
+    robot: &Robot<T, J>,
+    tuning: &Tuning<T>,
+    sensed: &State<T, J>,
+    now: &[SetPoint<T>; J],
+) -> [T; J] {
+    let stiffness = tuning.joint_bandwidth * tuning.joint_bandwidth;
+    let damping = T::from_f64(2.0) * tuning.joint_damping * tuning.joint_bandwidth;
+    let mut back = [T::zero(); J];
+    for j in robot.joints() {
+        back[j] =
+            damping * (now[j].rate - sensed.v[j]) + stiffness * (now[j].position - sensed.q[j]);
+    }
+    back
+}
+
 /// The torques as a piece of work.
 struct Torque<'a, T, const J: usize> {
     robot: &'a Robot<T, J>,
@@ -42,13 +60,11 @@ impl<T: Real, const J: usize> Work for Torque<'_, T, J> {
     #[inline(always)]
     fn run(self) -> [T; J] {
         let Self { robot, law, tuning, sensed, now, acceleration } = self;
-        let stiffness = tuning.joint_bandwidth * tuning.joint_bandwidth;
-        let damping = T::from_f64(2.0) * tuning.joint_damping * tuning.joint_bandwidth;
+        let back = joint_feedback(robot, tuning, sensed, now);
         let mut joints = *now;
         for j in robot.joints() {
             let (position, rate) = (sensed.q[j], sensed.v[j]);
-            let back = damping * (now[j].rate - rate) + stiffness * (now[j].position - position);
-            joints[j] = SetPoint { position, rate, acceleration: acceleration[j] + back };
+            joints[j] = SetPoint { position, rate, acceleration: acceleration[j] + back[j] };
         }
         match law {
             ArmLaw::Terrestrial => Swing::new(robot, &joints).effort(robot, Vec3::zero()),

@@ -1,17 +1,18 @@
 //! The flight computer: which phase, where the tool should be, what the actuators are told.
 
-use crate::base_control::{BaseControl, BaseControlSetup};
+use crate::base_control::{Actuation, BaseControl, BaseControlSetup};
 use crate::control_period::{Asked, PeriodMemory};
 use crate::door::{Axes, Command, Sensed};
 use crate::guidance::{Guidance, Guided};
-use crate::law::{Measurement, Tuning};
+use crate::law::{ArmLaw, Measurement, Tuning};
 use crate::navigation::{Navigation, NavigationSetup};
+use crate::period_command::Told;
 use crate::phase::Phase;
 use crate::resolved_motion::{Assignment, JointUse};
 use crate::sequence::BadPhase;
-use crate::steering::Unit;
-use wrasse_dynamics::{Frame, Robot};
-use wrasse_hardware::JointLimits;
+use crate::steering::{Steered, Unit};
+use wrasse_dynamics::{Frame, Robot, State};
+use wrasse_hardware::{ActuatorReadings, JointLimits};
 use wrasse_spatial::{Pose, Quat, Real, Scalar};
 
 /// How a flight computer is set up.
@@ -111,19 +112,14 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         let asked = self.guidance.next(&of, &sensed.tool_wrench_E.unwrap_or_default());
         let push = sensed.tool_wrench_E.as_ref();
         let told = self.memory.act(&self.robot, &self.setup, &state, &asked, push);
-        let steered = match asked {
-            Asked::Coast => self.base_control.rest(),
-            _ => self.base_control.command(
-                &self.robot,
-                &self.setup.tuning,
-                &told,
-                &state,
-                &sensed.actuators,
-            ),
+        let (told, steered) = match asked {
+            Asked::Coast => (told, self.base_control.rest()),
+            _ => self.turn_base(told, &state, &sensed.actuators),
         };
         Ok(Command {
             set_points: told.set_points,
             effort: told.effort,
+            effort_asked: told.effort_asked,
             attitude_torque_B: told.attitude_torque_B,
             actuators: steered.command,
             steering: steered.report,
@@ -133,6 +129,22 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
             reference: self.memory.reference,
             axes: self.memory.axes,
         })
+    }
+
+    /// What the actuators of the base are told, and the joints with what those will really give.
+    fn turn_base(
+        &mut self,
+        told: Told<T, J>,
+        state: &State<T, J>,
+        readings: &ActuatorReadings<T>,
+    ) -> (Told<T, J>, Steered<T>) {
+        let (robot, setup) = (&self.robot, &self.setup);
+        let (steered, lack_B) =
+            self.base_control.command(robot, &setup.tuning, &told, state, readings);
+        let counts =
+            setup.assignment.law != ArmLaw::Terrestrial && setup.base.actuation != Actuation::None;
+        let told = if counts { told.without_base_torque(robot, setup, lack_B) } else { told };
+        (told, steered)
     }
 
     /// Pose of the tool as it is believed to be.

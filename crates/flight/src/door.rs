@@ -63,8 +63,11 @@ impl<T: Real, const J: usize> Sensed<T, J> {
 pub struct Command<T, const J: usize> {
     /// Where each joint should be at the end of the period.
     pub set_points: [SetPoint<T>; J],
-    /// Torque (N·m) or force (N) of each joint over the period, by the computed-torque law.
+    /// Torque (N·m) or force (N) of each joint over the period, by the computed-torque law, within
+    /// the limits of the drives.
     pub effort: [T; J],
+    /// The same before limits.
+    pub effort_asked: [T; J],
     /// Torque that the base should feel over the period, base axes (N·m): what an ideal actuator is
     /// told, and what the steering has to give.
     pub attitude_torque_B: Vec3<T>,

@@ -1,8 +1,10 @@
 //! What the actuators are told between two sets of set-points.
 
-use crate::attitude_control::attitude_torque;
-use crate::computed_torque::computed_torque;
+use crate::attitude_control::attitude_acceleration;
+use crate::base_control::Actuation;
+use crate::computed_torque::{computed_torque, joint_feedback};
 use crate::computer::Setup;
+use crate::coupling_inertia::CouplingInertia;
 use crate::feedforward::feedforward_torque;
 use crate::law::{ArmLaw, Feedforward};
 use crate::tool_wrench::against_tool_wrench;
@@ -15,7 +17,9 @@ use wrasse_spatial::{Quat, Real, SpatialForce, SpatialInertia, Vec3};
 pub struct Told<T, const J: usize> {
     /// Where each joint should be at the end of the period.
     pub set_points: [SetPoint<T>; J],
-    /// Torque (N·m) or force (N) of each joint over the period.
+    /// Torque (N·m) or force (N) of each joint that the law asks for, before limits.
+    pub effort_asked: [T; J],
+    /// The same within the limits: what the drives are told over the period.
     pub effort: [T; J],
     /// Torque that the base should feel over the period, base axes (N·m).
     pub attitude_torque_B: Vec3<T>,
@@ -23,21 +27,55 @@ pub struct Told<T, const J: usize> {
     pub ahead_force_B: Vec3<T>,
     /// Inertia of the whole system with joints locked, about the base's origin in base axes.
     pub M_B: SpatialInertia<T>,
+    /// How joints and base push each other.
+    pub coupling: CouplingInertia<T, J>,
 }
 
 impl<T: Real, const J: usize> Told<T, J> {
     /// No torque and no force.
     #[inline(always)]
     pub(crate) fn nothing(set_points: [SetPoint<T>; J], M_B: SpatialInertia<T>) -> Self {
-        let none = Vec3::zero();
-        let effort = [T::zero(); J];
-        Self { set_points, effort, attitude_torque_B: none, ahead_force_B: none, M_B }
+        let (none, effort) = (Vec3::zero(), [T::zero(); J]);
+        Self {
+            set_points,
+            effort_asked: effort,
+            effort,
+            attitude_torque_B: none,
+            ahead_force_B: none,
+            M_B,
+            coupling: CouplingInertia::zero(),
+        }
+    }
+
+    /// The same for a base that feels another torque than it should: the joints keep the accelerations
+    /// that are asked of them, whatever the base does. `lack_B` is what it should feel less what it will
+    /// (N·m, base axes).
+    ///
+    /// With `[I N; Nᵀ H̄] [ẇ; q̈] = [T; τ]` a torque on the base that is short by `ΔT` turns it by
+    /// `-I⁻¹ ΔT`, and the joints stay on their way if their torques change by `-Nᵀ I⁻¹ ΔT`.
+    #[inline(always)]
+    #[must_use]
+    pub(crate) fn without_base_torque(
+        mut self,
+        robot: &Robot<T, J>,
+        setup: &Setup<T, J>,
+        lack_B: Vec3<T>,
+    ) -> Self {
+        let change = self.coupling.effort(self.M_B.central().solve(lack_B));
+        for j in robot.joints() {
+            self.effort_asked[j] -= change[j];
+        }
+        self.effort = within_limits(robot, setup, self.effort_asked);
+        self
     }
 }
 
 /// Torques that carry joints and base from the set-points now to the next ones. They are constant over
 /// the period: those of its middle are right on average, and for the base so is `reaction_B`, what the
 /// joints' angular momentum gains over the period per time (N·m), whose impulse is exact.
+///
+/// The base is told of the joints' feedback too: an arm law that counts on a base whose attitude is
+/// held gets its accelerations only if the base is held against all of them.
 #[inline(always)]
 pub(crate) fn told<T: Real, const J: usize>(
     robot: &Robot<T, J>,
@@ -48,22 +86,20 @@ pub(crate) fn told<T: Real, const J: usize>(
     tool_wrench_E: Option<&SpatialForce<T>>,
 ) -> Told<T, J> {
     let (tuning, law) = (&setup.tuning, setup.assignment.law);
-    let (period, half) = (tuning.period, T::from_f64(0.5));
-    let (mut middle, mut ahead) = (*now, *sensed);
-    let mut acceleration = [T::zero(); J];
-    for j in robot.joints() {
-        middle[j] = SetPointMotion::between(now[j], next[j], period).at(period * half);
-        acceleration[j] = (next[j].rate - now[j].rate) / period;
-        let gain = acceleration[j] * period * half;
-        ahead.q[j] += (sensed.v[j] + gain * half) * period * half;
-        ahead.v[j] += gain;
-    }
+    let Middle { state: ahead, set_points: middle, acceleration } =
+        Middle::new(robot, tuning.period, sensed, now, next);
     let mut effort = computed_torque(robot, law, tuning, &ahead, &middle, &acceleration);
-    let reaction_B = match setup.base.feedforward {
-        Feedforward::Exact => reaction_B,
-        as_printed => feedforward_torque(robot, as_printed, &middle),
-    };
-    let mut ahead_B = SpatialForce::new(reaction_B, Vec3::zero());
+    let coupling = CouplingInertia::new(robot, &ahead.q);
+    let feedback_B = coupling.reaction(&joint_feedback(robot, tuning, &ahead, &middle));
+    // What holds the base against the joints as they are asked to move.
+    let mut holding_B = reaction_B + feedback_B;
+    let mut ahead_B = SpatialForce::new(
+        match setup.base.feedforward {
+            Feedforward::Exact => holding_B,
+            as_printed => feedforward_torque(robot, as_printed, &middle),
+        },
+        Vec3::zero(),
+    );
     if let Some(F_E) = tool_wrench_E {
         // A base that is held in its place stands as if it were bolted down.
         let held = setup.base.position_hold.is_some();
@@ -74,16 +110,60 @@ pub(crate) fn told<T: Real, const J: usize>(
             effort[j] += against[j];
         }
         ahead_B += on_base_B;
+        holding_B += on_base_B.torque;
     }
     let quat_NB = Quat::from_matrix(&sensed.X_NB.rotation);
-    let (I, w_NB_B) = (M_B.central(), sensed.V_NB_B.angular);
-    let back_B = attitude_torque(tuning, &I, &quat_NB, w_NB_B, &setup.base.quat_ND);
-    Told {
+    let w_NB_B = sensed.V_NB_B.angular;
+    let back = attitude_acceleration(tuning, &quat_NB, w_NB_B, &setup.base.quat_ND);
+    let attitude_torque_B = ahead_B.torque + M_B.central() * back;
+    let told = Told {
         set_points: *next,
-        effort: within_limits(robot, setup, effort),
-        attitude_torque_B: ahead_B.torque + back_B,
+        effort_asked: effort,
+        effort,
+        attitude_torque_B,
         ahead_force_B: ahead_B.force,
         M_B,
+        coupling,
+    };
+    // What the torques of the arm law count on.
+    let counted_on_B = match (setup.base.actuation, law) {
+        (Actuation::None, _) | (_, ArmLaw::Terrestrial) => attitude_torque_B,
+        (_, ArmLaw::AttitudeHeld) => holding_B,
+        (_, ArmLaw::FreeFloating) => Vec3::zero(),
+    };
+    told.without_base_torque(robot, setup, counted_on_B - attitude_torque_B)
+}
+
+/// The middle of a period.
+struct Middle<T, const J: usize> {
+    /// The vehicle as it was sensed, moved on by the acceleration that is fed forward.
+    state: State<T, J>,
+    /// Where the joints should be.
+    set_points: [SetPoint<T>; J],
+    /// Mean acceleration between the set-points (rad/s², m/s²).
+    acceleration: [T; J],
+}
+
+impl<T: Real, const J: usize> Middle<T, J> {
+    #[inline(always)]
+    fn new(
+        robot: &Robot<T, J>,
+        period: T,
+        sensed: &State<T, J>,
+        now: &[SetPoint<T>; J],
+        next: &[SetPoint<T>; J],
+    ) -> Self {
+        let half = T::from_f64(0.5);
+        let mut middle = Self { state: *sensed, set_points: *now, acceleration: [T::zero(); J] };
+        for j in robot.joints() {
+            let way = SetPointMotion::between(now[j], next[j], period);
+            middle.set_points[j] = way.at(period * half);
+            middle.acceleration[j] = (next[j].rate - now[j].rate) / period;
+            let gain = middle.acceleration[j] * period * half;
+            middle.state.q[j] += (sensed.v[j] + gain * half) * period * half;
+            middle.state.v[j] += gain;
+        }
+        middle
     }
 }
 

@@ -17,7 +17,7 @@ use flights::{PERIOD, aside, at_rest, drifting, robot, setup};
 use wrasse_dynamics::{Robot, State, kinematics, mass_matrix, momentum};
 use wrasse_flight::steering::SteeringSetup;
 use wrasse_flight::{
-    ArmLaw, Axes, BaseControlSetup, Command, FlightComputer, Held, Measurement, Phase,
+    Actuation, ArmLaw, Axes, BaseControlSetup, Command, FlightComputer, Held, Measurement, Phase,
     PositionHold, Sensed, Setup, against_tool_wrench,
 };
 use wrasse_hardware::{ActuatorReadings, Actuators};
@@ -30,7 +30,12 @@ fn with(all: &Actuators<f64>, position_hold: Option<PositionHold<f64>>) -> Setup
     let plain = setup::<f64>(ArmLaw::AttitudeHeld, Measurement::Base);
     let steering = SteeringSetup { holds_position: position_hold.is_some(), ..bench::setup(all) };
     let quat_ND = Quat::from_matrix(&at_rest().X_NB.rotation);
-    let base = BaseControlSetup { quat_ND, position_hold, steering: Some(steering), ..plain.base };
+    let base = BaseControlSetup {
+        quat_ND,
+        position_hold,
+        actuation: Actuation::Fitted(steering),
+        ..plain.base
+    };
     Setup { base, ..plain }
 }
 
@@ -102,18 +107,22 @@ fn centre_of_mass(robot: &Robot<f64, 7>, state: &State<f64, 7>) -> Vec3<f64> {
 /// What the force-torque sensor feels is stood against by joints and base, on top of all else.
 #[test]
 fn a_felt_wrench_reaches_joints_and_base() {
-    let all = actuators(&[], &gyros(), &[]);
-    let setup = with(&all, None);
+    let setup = with(&actuators(&[], &gyros(), &[]), None);
+    let mut ideal = setup;
+    ideal.base.actuation = Actuation::Ideal(None);
     let F_E = SpatialForce::new(vec3(3.0, -7.0, 5.0), vec3(40.0, 200.0, -90.0));
-    let commands = [None, Some(F_E)]
-        .map(|felt| step(&mut FlightComputer::new(setup, &robot(), &held()), &drifting(), felt));
+    let commands_by = |setup| {
+        [None, Some(F_E)]
+            .map(|felt| step(&mut FlightComputer::new(setup, &robot(), &held()), &drifting(), felt))
+    };
+    let (commands, at_once) = (commands_by(setup), commands_by(ideal));
     let tool = &setup.assignment.tool;
     let (effort, on_base_B) =
         against_tool_wrench(&robot(), ArmLaw::AttitudeHeld, tool, &drifting(), &F_E);
     let torque_B = on_base_B.torque;
     assert!(torque_B.norm() > 10.0, "{torque_B:?}");
     for j in 0..7 {
-        let off = commands[1].effort[j] - commands[0].effort[j] - effort[j];
+        let off = at_once[1].effort[j] - at_once[0].effort[j] - effort[j];
         assert!(off.abs() < 1e-11, "joint {j}: {off:e} N·m");
     }
     for told in [
@@ -153,7 +162,7 @@ fn single_precision_turns_the_gimbals_alike() {
     let quat_ND = wide.base.quat_ND;
     let quat = [quat_ND.w, quat_ND.x, quat_ND.y, quat_ND.z].map(<f32 as Real>::from_f64);
     narrow.base.quat_ND = Quat { w: quat[0], x: quat[1], y: quat[2], z: quat[3] };
-    narrow.base.steering = Some(single(&wide.base.steering.unwrap()));
+    narrow.base.actuation = Actuation::Fitted(single(wide.base.actuation.steering().unwrap()));
     let start = at_rest();
     let single_start = State {
         X_NB: wrasse_spatial::Pose::from_f64(&start.X_NB),

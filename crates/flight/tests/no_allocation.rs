@@ -23,7 +23,7 @@ use wrasse_flight::steering::{
     gyro_rates, preferred_angles, wheel_torques,
 };
 use wrasse_flight::{
-    ArmLaw, Axes, BaseReading, EstimatorSetup, FlightComputer, Grip, Held, JointReading,
+    Actuation, ArmLaw, Axes, BaseReading, EstimatorSetup, FlightComputer, Grip, Held, JointReading,
     JointTarget, JointTiming, Measurement, NavigationSetup, NoWay, Phase, PositionHold, Sensed,
 };
 use wrasse_hardware::{
@@ -173,7 +173,7 @@ fn steering_all_groups_allocates_nothing() {
 #[test]
 fn a_control_period_with_sensors_and_actuators_allocates_nothing() {
     let mut setup = setup(ArmLaw::AttitudeHeld, Measurement::Base);
-    setup.base.steering = Some(all_groups());
+    setup.base.actuation = Actuation::Fitted(all_groups());
     setup.base.position_hold = Some(PositionHold { bandwidth: 0.1, damping: 1.0 });
     let quat_NB = Quat::from_matrix(&at_rest().X_NB.rotation);
     let attitude = EstimatorSetup {

@@ -1,6 +1,6 @@
 //! Single-gimbal control moment gyros.
 
-use wrasse_spatial::{Real, Vec3};
+use wrasse_spatial::{Real, Scalar, Vec3};
 
 /// Most control moment gyros of one vehicle.
 pub const GYROS: usize = 8;
@@ -42,6 +42,22 @@ impl<T: Real> ControlMomentGyro<T> {
     /// Largest torque: the rotor's momentum at the largest gimbal rate (N·m).
     pub fn torque_limit(&self) -> T {
         self.momentum * self.rate_limit
+    }
+}
+
+impl<T: Scalar> ControlMomentGyro<T> {
+    /// Mean rate of the gimbal over a period (s) that it begins at `rate` (rad/s) and in which its servo
+    /// shall turn it at `wanted` (rad/s).
+    ///
+    /// The servo closes the gap by its bandwidth, `e^(-bt)`; where its acceleration does not suffice it
+    /// closes it evenly. What the motor bears of the turning base is left out.
+    pub fn mean_rate(&self, rate: T, wanted: T, period: T) -> T {
+        let gap = wanted - rate;
+        let bt = self.servo_bandwidth * period;
+        // Mean share of the gap that is closed: 1 - (1 - e^(-bt))/bt.
+        let closed = T::one() - (T::one() - Scalar::exp(-bt)) / bt;
+        let half = T::from_f64(0.5);
+        rate + (gap * closed).clamp_to(self.acceleration_limit * period * half)
     }
 }
 

@@ -4,6 +4,7 @@
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
 mod actuators;
+mod attitude_actuator;
 mod gyro;
 mod list;
 mod sensor;
@@ -12,6 +13,7 @@ mod thruster;
 mod wheel;
 
 pub use actuators::{ActuatorCommand, ActuatorReadings, Actuators};
+pub use attitude_actuator::{AttitudeActuator, AttitudeActuatorLimit};
 pub use gyro::{ControlMomentGyro, GYROS};
 pub use list::List;
 pub use sensor::{RateGyro, Sensors, StarTracker, TrackerReading};
@@ -28,13 +30,4 @@ pub struct JointLimits<T> {
     pub rate: Option<T>,
     /// Largest torque or force of the drive (N·m or N).
     pub effort: Option<T>,
-}
-
-/// An ideal attitude actuator: any torque up to a limit, at once, stored as momentum up to a limit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AttitudeActuator<T> {
-    /// Largest torque about each base axis (N·m).
-    pub torque_limit: T,
-    /// Largest stored momentum about each base axis (N·m·s).
-    pub momentum_limit: T,
 }

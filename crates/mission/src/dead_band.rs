@@ -26,7 +26,7 @@ impl DeadBand {
     ) -> Option<String> {
         let actuators = &case.equipment.actuators;
         let alone = actuators.wheels.is_empty() && actuators.gyros.is_empty();
-        let setup = case.setup.base.steering.as_ref()?;
+        let setup = case.setup.base.actuation.steering()?;
         let (torque, force) =
             (command.steering.wanted.torque.norm(), command.steering.wanted.force.norm());
         let shut = command.actuators.thruster_on.iter().all(|on| *on <= 0.0);

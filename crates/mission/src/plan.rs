@@ -5,7 +5,7 @@ use crate::arm_shape::{reach_margin, smallest_singular_value};
 use crate::mission::{Case, PayloadStart};
 use crate::outcome::{End, PlanLine};
 use wrasse_dynamics::{Frame, Payload, Robot, kinematics};
-use wrasse_flight::{BadPhase, FlightComputer, Grip, LONGEST, NoWay, Sensed, Task};
+use wrasse_flight::{Actuation, BadPhase, FlightComputer, Grip, LONGEST, NoWay, Sensed, Task};
 use wrasse_hardware::ActuatorReadings;
 use wrasse_spatial::{Quat, Vec3};
 use wrasse_vehicle::JOINTS;
@@ -118,7 +118,7 @@ impl<'a> Belief<'a> {
         let phases = case.flight_phases();
         // The laws believe in a base that does as it is told: nobody has to be steered.
         let mut setup = case.setup;
-        (setup.base.steering, setup.base.position_hold) = (None, None);
+        (setup.base.actuation, setup.base.position_hold) = (Actuation::Ideal(None), None);
         let held = case.payloads.iter().enumerate().filter_map(|(i, p)| match p.start {
             PayloadStart::Held(frame) => Some((i, frame, case.believed_matter(i))),
             PayloadStart::Free(..) => None,

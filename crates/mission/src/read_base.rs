@@ -14,7 +14,8 @@ use wrasse_flight::steering::{
     WheelSharing, preferred_angles,
 };
 use wrasse_flight::{
-    BaseControlSetup, EstimatorSetup, Feedforward, NavigationSetup, PositionHold, TRACKER_MEMORY,
+    Actuation, BaseControlSetup, EstimatorSetup, Feedforward, NavigationSetup, PositionHold,
+    TRACKER_MEMORY,
 };
 use wrasse_hardware::{AttitudeActuator, Sensors};
 use wrasse_spatial::{SpatialForce, Vec3};
@@ -123,6 +124,7 @@ pub(crate) fn turning(r: &mut Reading<'_>, file: &MissionFile, equipment: &Equip
 pub(crate) fn base_control(
     r: &mut Reading<'_>,
     file: &MissionFile,
+    turning: Turning,
     fitted: Option<&Equipment>,
 ) -> BaseControlSetup<f64> {
     let c = &file.control;
@@ -150,11 +152,16 @@ pub(crate) fn base_control(
             FeedforwardFile::None => Feedforward::None,
         },
         quat_ND: attitude(r, at!["initial", "attitude"], file.initial.attitude),
-        steering: fitted.map(|e| SteeringSetup {
-            actuators: e.actuators,
-            holds_position: position_hold.is_some(),
-            ..steering
-        }),
+        actuation: match (turning, fitted) {
+            _ if file.world.base_attitude != BaseFile::Controlled => Actuation::None,
+            (Turning::Fitted, Some(e)) => Actuation::Fitted(SteeringSetup {
+                actuators: e.actuators,
+                holds_position: position_hold.is_some(),
+                ..steering
+            }),
+            (Turning::Fitted, None) => Actuation::None,
+            (Turning::Ideal(limits), _) => Actuation::Ideal(limits),
+        },
         position_hold,
     }
 }

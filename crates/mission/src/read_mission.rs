@@ -163,7 +163,7 @@ fn read_case(
     let (fitted_sensors, sensors) = sensors(r, &file);
     let fitted = (turning == Turning::Fitted).then_some(&equipment);
     let (base_control, navigation) =
-        (base_control(r, &file, fitted), navigation(r, &file, sensors.as_ref()));
+        (base_control(r, &file, turning, fitted), navigation(r, &file, sensors.as_ref()));
     let setup = setup(r, &file, &base_control, &navigation);
     let (failures, wrenches) = (failures(r, &file, &equipment), applied_wrenches(r, &file));
     let payloads = payloads(r, &file, &start);
@@ -173,7 +173,8 @@ fn read_case(
     let torque = torque_joints(r, &file);
     let output_rate = output_rate(r, &file);
     let stepper = stepper(r, &file);
-    let (modulation, period) = (base_control.steering.map(|s| s.modulation), setup.tuning.period);
+    let (modulation, period) =
+        (base_control.actuation.steering().map(|s| s.modulation), setup.tuning.period);
     let sampling = Sampling { equipment: &equipment, base, turning, stepper, period, modulation };
     check_sampling(r, &file, &sampling);
     let nominal = Nominal::of(&vehicle, (&start, base), &payloads, &fitted_sensors);

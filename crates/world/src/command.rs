@@ -2,7 +2,7 @@
 
 use crate::setup::{BaseAttitude, Drive};
 use crate::world::World;
-use wrasse_hardware::{ActuatorCommand, AttitudeActuator};
+use wrasse_hardware::{ActuatorCommand, AttitudeActuatorLimit};
 use wrasse_spatial::Vec3;
 
 /// A limit that cut a command.
@@ -103,38 +103,11 @@ impl<const J: usize> World<J> {
         let Some(limits) = self.actuator else { return wanted_B };
         let h_B = self.stored_momentum_B();
         let h = (h_B, self.state().V_NB_B.angular.cross(h_B));
-        given_torque(&limits, wanted_B, h, period, |limit| cut.push(limit))
+        limits.given(wanted_B, h, period, |limit, axis| {
+            cut.push(match limit {
+                AttitudeActuatorLimit::Torque => Saturation::ActuatorTorque(axis),
+                AttitudeActuatorLimit::Momentum => Saturation::ActuatorMomentum(axis),
+            });
+        })
     }
-}
-
-/// The torque that an ideal actuator gives of the one that is wanted (N·m, base axes). It stores `h_B`,
-/// which the turning base carries on by `w_x_h_B`; each limit that cuts is noted.
-pub(crate) fn given_torque(
-    limits: &AttitudeActuator<f64>,
-    wanted_B: Vec3<f64>,
-    (h_B, w_x_h_B): (Vec3<f64>, Vec3<f64>),
-    period: f64,
-    mut note: impl FnMut(Saturation),
-) -> Vec3<f64> {
-    // Seen from a base that turns, what is stored turns the other way: ḣ_B = -τ - w × h_B.
-    let (stored, carried) = (h_B.to_array(), w_x_h_B.to_array());
-    let mut given = wanted_B.to_array();
-    for axis in 0..3 {
-        let wanted = given[axis];
-        let torque = wanted.clamp(-limits.torque_limit, limits.torque_limit);
-        if torque != wanted {
-            note(Saturation::ActuatorTorque(axis));
-        }
-        // It may reach ± its limit, not pass it: a full actuator gives back what is carried to it,
-        // even if nothing is asked, as far as its torque goes. (To first order in the turn over
-        // the period.)
-        let lowest = (stored[axis] - limits.momentum_limit) / period - carried[axis];
-        let highest = (stored[axis] + limits.momentum_limit) / period - carried[axis];
-        let held = if lowest <= highest { torque.clamp(lowest, highest) } else { torque };
-        given[axis] = held.clamp(-limits.torque_limit, limits.torque_limit);
-        if given[axis] != torque {
-            note(Saturation::ActuatorMomentum(axis));
-        }
-    }
-    Vec3::from_array(given)
 }

@@ -72,6 +72,9 @@ pub struct Steered<T> {
     pub command: ActuatorCommand<T>,
     /// What was wanted and what is missing.
     pub report: SteeringReport<T>,
+    /// Torque that the bodies will feel on average over the period, with the servos as slow as they
+    /// are, base axes (N·m).
+    pub expected_B: Vec3<T>,
 }
 
 impl<T: Scalar> Steered<T> {
@@ -87,6 +90,7 @@ impl<T: Scalar> Steered<T> {
                 singularity: T::one(),
                 unloading: false,
             },
+            expected_B: Vec3::zero(),
         }
     }
 }
@@ -191,7 +195,8 @@ impl<T: Scalar> Steering<T> {
                 thruster_duties(thrusters, &self.usable_thrusters, p_BScm_B, &ask, controlled);
             missing.torque = selection.missing.torque;
             missing.force = if holds { selection.missing.force } else { Vec3::zero() };
-            rest_B -= self.pulse(&selection, needs, &mut steered.command).torque;
+            steered.expected_B = self.pulse(&selection, needs, &mut steered.command).torque;
+            rest_B -= steered.expected_B;
         }
         if self.stores_momentum() {
             let (wheels, gyros, missing_B) = self.inside(rest_B, needs, stored_B, readings);
@@ -200,6 +205,8 @@ impl<T: Scalar> Steering<T> {
             self.before = Some((stored_B, due_B * needs.period));
             steered.command.wheel_torque = wheels;
             steered.command.gimbal_rate = gyros;
+            let change_B = self.change_inside(&steered.command, needs.period, readings);
+            steered.expected_B += due(change_B, needs, stored_B);
             missing.torque = self.of_what_is_wanted(missing_B, needs.period);
         }
         steered.report = SteeringReport {
@@ -287,6 +294,29 @@ impl<T: Scalar> Steering<T> {
             (torques, left_B) = (found.values, found.missing_B);
         }
         (torques, rates, -left_B)
+    }
+
+    /// Mean change over a period (s) of the momentum inside that a command causes, with each gimbal as
+    /// its servo turns it (N·m, base axes).
+    fn change_inside(
+        &self,
+        command: &ActuatorCommand<T>,
+        period: T,
+        readings: &ActuatorReadings<T>,
+    ) -> Vec3<T> {
+        let Actuators { wheels, gyros, .. } = &self.setup.actuators;
+        let mut change_B = Vec3::zero();
+        for (i, wheel) in wheels.iter().enumerate() {
+            change_B += wheel.axis_B * command.wheel_torque[i];
+        }
+        for (i, gyro) in gyros.iter().enumerate() {
+            let rate = gyro.mean_rate(readings.gimbal_rate[i], command.gimbal_rate[i], period);
+            if rate.is_finite() {
+                let axis_B = gyro.torque_axis(self.heard.gimbal_angle[i]);
+                change_B += axis_B * (gyro.momentum * rate);
+            }
+        }
+        change_B
     }
 
     /// Torque by which the thrusters empty what is stored (N·m, base axes).

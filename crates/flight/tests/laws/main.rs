@@ -18,6 +18,7 @@ mod computed_torque;
 mod computer;
 mod computer_outcomes;
 mod control_period;
+mod coupling_inertia;
 mod dual_route;
 mod feedforward;
 mod flights;
