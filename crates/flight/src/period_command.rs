@@ -64,8 +64,21 @@ impl<T: Real, const J: usize> Told<T, J> {
         let change = self.coupling.effort(self.M_B.central().solve(lack_B));
         for j in robot.joints() {
             self.effort_asked[j] -= change[j];
+            self.effort[j] -= change[j];
         }
-        self.effort = within_limits(robot, setup, self.effort_asked);
+        let share = share_within_limits(robot, setup, &self.effort);
+        self.effort = self.effort.map(|tau| tau * share);
+        self
+    }
+
+    /// All torques scaled so that no drive passes its limit, those on the base with them: a drive that
+    /// saturated alone would let the others throw the arm off its way, and a base that is held against
+    /// motion that no drive can give is turned.
+    #[inline(always)]
+    fn within_limits(mut self, robot: &Robot<T, J>, setup: &Setup<T, J>) -> Self {
+        let share = share_within_limits(robot, setup, &self.effort_asked);
+        self.effort = self.effort_asked.map(|tau| tau * share);
+        self.attitude_torque_B = self.attitude_torque_B * share;
         self
     }
 }
@@ -93,19 +106,13 @@ pub(crate) fn told<T: Real, const J: usize>(
     let feedback_B = coupling.reaction(&joint_feedback(robot, tuning, &ahead, &middle));
     // What holds the base against the joints as they are asked to move.
     let mut holding_B = reaction_B + feedback_B;
-    let mut ahead_B = SpatialForce::new(
-        match setup.base.feedforward {
-            Feedforward::Exact => holding_B,
-            as_printed => feedforward_torque(robot, as_printed, &middle),
-        },
-        Vec3::zero(),
-    );
+    let fed_forward_B = match setup.base.feedforward {
+        Feedforward::Exact => holding_B,
+        as_printed => feedforward_torque(robot, as_printed, &middle),
+    };
+    let mut ahead_B = SpatialForce::new(fed_forward_B, Vec3::zero());
     if let Some(F_E) = tool_wrench_E {
-        // A base that is held in its place stands as if it were bolted down.
-        let held = setup.base.position_hold.is_some();
-        let law = if held { ArmLaw::Terrestrial } else { law };
-        let tool = &setup.assignment.tool;
-        let (against, on_base_B) = against_tool_wrench(robot, law, tool, sensed, F_E);
+        let (against, on_base_B) = against_push(robot, setup, sensed, F_E);
         for j in robot.joints() {
             effort[j] += against[j];
         }
@@ -113,25 +120,37 @@ pub(crate) fn told<T: Real, const J: usize>(
         holding_B += on_base_B.torque;
     }
     let quat_NB = Quat::from_matrix(&sensed.X_NB.rotation);
-    let w_NB_B = sensed.V_NB_B.angular;
-    let back = attitude_acceleration(tuning, &quat_NB, w_NB_B, &setup.base.quat_ND);
-    let attitude_torque_B = ahead_B.torque + M_B.central() * back;
-    let told = Told {
-        set_points: *next,
-        effort_asked: effort,
-        effort,
-        attitude_torque_B,
-        ahead_force_B: ahead_B.force,
-        M_B,
-        coupling,
-    };
-    // What the torques of the arm law count on.
+    let (I, w_NB_B) = (M_B.central(), sensed.V_NB_B.angular);
+    let back_B = I * attitude_acceleration(tuning, &quat_NB, w_NB_B, &setup.base.quat_ND);
+    let attitude_torque_B = ahead_B.torque + back_B;
+    // What the torques of the arm law count on, and where the base turns otherwise, how it does.
     let counted_on_B = match (setup.base.actuation, law) {
         (Actuation::None, _) | (_, ArmLaw::Terrestrial) => attitude_torque_B,
         (_, ArmLaw::AttitudeHeld) => holding_B,
         (_, ArmLaw::FreeFloating) => Vec3::zero(),
     };
-    told.without_base_torque(robot, setup, counted_on_B - attitude_torque_B)
+    let with_base = coupling.effort(I.solve(attitude_torque_B - counted_on_B));
+    for j in robot.joints() {
+        effort[j] += with_base[j];
+    }
+    let (set_points, ahead_force_B) = (*next, ahead_B.force);
+    let effort_asked = effort;
+    Told { set_points, effort_asked, effort, attitude_torque_B, ahead_force_B, M_B, coupling }
+        .within_limits(robot, setup)
+}
+
+/// Torques of the joints and wrench on the base that stand against a push at the tool.
+#[inline(always)]
+fn against_push<T: Real, const J: usize>(
+    robot: &Robot<T, J>,
+    setup: &Setup<T, J>,
+    sensed: &State<T, J>,
+    F_E: &SpatialForce<T>,
+) -> ([T; J], SpatialForce<T>) {
+    // A base that is held in its place stands as if it were bolted down.
+    let held = setup.base.position_hold.is_some();
+    let law = if held { ArmLaw::Terrestrial } else { setup.assignment.law };
+    against_tool_wrench(robot, law, &setup.assignment.tool, sensed, F_E)
 }
 
 /// The middle of a period.
@@ -167,19 +186,19 @@ impl<T: Real, const J: usize> Middle<T, J> {
     }
 }
 
-/// All torques scaled so that none passes its limit: a drive that saturated alone would let the
+/// Share of all torques at which none passes its limit (–): a drive that saturated alone would let the
 /// others throw the arm off its way.
 #[inline(always)]
-fn within_limits<T: Real, const J: usize>(
+fn share_within_limits<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     setup: &Setup<T, J>,
-    effort: [T; J],
-) -> [T; J] {
+    effort: &[T; J],
+) -> T {
     let mut share = T::one();
     for j in robot.joints() {
         if let Some(limit) = setup.limits[j].effort {
             share = share.min(limit / limit.max(effort[j].abs()));
         }
     }
-    effort.map(|tau| tau * share)
+    share
 }
