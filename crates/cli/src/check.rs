@@ -51,8 +51,10 @@ fn findings(file: &PathBuf, text: String) -> (Vec<Complaint>, Option<String>) {
     if is_mission(file, &text) {
         return match read_mission(file, text) {
             Ok(mission) => {
+                let loops = mission.sampled_loops(0);
+                let loops: String = loops.iter().map(|l| format!("\n  {}", l.text())).collect();
                 let what = format!("a mission of {} case(s)", mission.case_count());
-                (mission.remarks, Some(what))
+                (mission.remarks, Some(format!("{what}; closed once a period:{loops}")))
             }
             Err(complaints) => (complaints, None),
         };

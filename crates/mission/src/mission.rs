@@ -6,6 +6,7 @@ use crate::dispersion::Dispersion;
 use crate::quantity::Quantity;
 use crate::read_base::Turning;
 use crate::requirement::Requirement;
+use crate::sampled_loops::{SampledLoop, sampled_loops};
 use std::sync::Arc;
 use wrasse_document::Complaint;
 use wrasse_dynamics::{BodyId, Frame, JointKind, Payload, Robot, State};
@@ -93,6 +94,13 @@ impl Mission {
     /// If there is no case of this number.
     pub fn vehicle(&self, case: usize) -> &Vehicle {
         &self.cases[case].vehicle
+    }
+    /// The loops that the flight computer of a case closes once a period.
+    ///
+    /// # Panics
+    /// If there is no case of this number.
+    pub fn sampled_loops(&self, case: usize) -> Vec<SampledLoop> {
+        sampled_loops(&self.cases[case])
     }
     /// Number of cases: one, or one for each combination that is compared.
     pub fn case_count(&self) -> usize {

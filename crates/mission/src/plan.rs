@@ -4,7 +4,8 @@
 use crate::arm_shape::{reach_margin, smallest_singular_value};
 use crate::mission::{Case, PayloadStart};
 use crate::outcome::{End, PlanLine};
-use wrasse_dynamics::{Frame, Payload, Robot, kinematics};
+use crate::sampled_loops::{SampledLoop, joint_gain, joint_loop, sampled_loops};
+use wrasse_dynamics::{Frame, Payload, Robot, State, kinematics};
 use wrasse_flight::{Actuation, BadPhase, FlightComputer, Grip, LONGEST, NoWay, Sensed, Task};
 use wrasse_hardware::ActuatorReadings;
 use wrasse_spatial::{Quat, Vec3};
@@ -13,6 +14,9 @@ use wrasse_world::FreeBody;
 
 /// A tool that its own law believes this far from its reference has left the way (m, rad).
 const OFF_THE_WAY: (f64, f64) = (5e-5, 5e-5);
+
+/// Periods from one look at the joint loops to the next.
+const LOOP_PERIODS: u64 = 50;
 
 /// What the planning found.
 #[derive(Debug, Clone)]
@@ -37,6 +41,8 @@ struct PhaseNotes {
     /// The joint that moves fastest, and how fast (rad/s or m/s).
     fastest: (usize, f64),
     base_turn: f64,
+    /// Largest acceleration that joints get for one that their loops ask for (–).
+    loop_gain: f64,
 }
 
 impl PhaseNotes {
@@ -48,6 +54,7 @@ impl PhaseNotes {
         reach: f64::INFINITY,
         fastest: (0, 0.0),
         base_turn: 0.0,
+        loop_gain: 0.0,
     };
 }
 
@@ -62,7 +69,7 @@ struct Belief<'a> {
 /// Go through all phases.
 pub(crate) fn plan(case: &Case) -> Plan {
     let mut belief = Belief::new(case);
-    let mut plan = Plan { lines: vec![], periods: 0, blocked: None };
+    let mut plan = Plan { lines: loop_lines(case), periods: 0, blocked: None };
     let mut state = case.start;
     let idle = ActuatorReadings::default();
     let mut notes = PhaseNotes::NONE;
@@ -102,6 +109,12 @@ pub(crate) fn plan(case: &Case) -> Plan {
         plan.blocked = Some(too_long(case, phase, plan.periods));
     }
     plan
+}
+
+/// The loops that are closed once a period.
+fn loop_lines(case: &Case) -> Vec<PlanLine> {
+    let line = |text| PlanLine { phase: "sampled loops".into(), text };
+    sampled_loops(case).iter().map(|found| line(found.text())).collect()
 }
 
 /// A mission that does not come to its end.
@@ -162,6 +175,9 @@ impl<'a> Belief<'a> {
     /// Note how near the arm is to where it cannot go on; why, if it cannot.
     fn look(&self, notes: &mut PhaseNotes) -> Option<String> {
         let (case, state) = (self.case, self.computer.believed_state());
+        if let Some(reason) = self.look_at_loops(notes, &state) {
+            return Some(reason);
+        }
         let k = kinematics(self.computer.robot(), &state);
         let singular =
             smallest_singular_value(&self.computer.task_jacobian(), case.setup.assignment.task);
@@ -216,6 +232,17 @@ impl<'a> Belief<'a> {
 }
 
 impl Belief<'_> {
+    /// Why the joint loops would be unstable as sampled, if they would be.
+    fn look_at_loops(&self, notes: &mut PhaseNotes, state: &State<f64, JOINTS>) -> Option<String> {
+        if notes.periods % LOOP_PERIODS != 1 {
+            return None;
+        }
+        let gain = joint_gain(self.case, self.computer.robot(), state);
+        notes.loop_gain = notes.loop_gain.max(gain);
+        let found = joint_loop(self.case, gain).filter(SampledLoop::is_unstable)?;
+        Some(format!("a loop would be unstable as sampled: {}; {}", found.text(), found.help()))
+    }
+
     /// Whether the end of the way is out of reach at any speed, in words.
     fn about_the_end(&self) -> String {
         let task = self.case.setup.assignment.task;
@@ -256,6 +283,9 @@ fn finished(case: &Case, phase: usize, notes: &PhaseNotes) -> Option<PlanLine> {
     );
     if notes.singular.is_finite() {
         text = format!("{text}, {}", condition(notes.singular, notes.reach, notes.base_turn));
+    }
+    if let Some(found) = joint_loop(case, notes.loop_gain).filter(|found| found.gain > 1.0) {
+        text = format!("{text}, {}", found.text());
     }
     Some(PlanLine { phase: phase.name.clone(), text })
 }

@@ -14,6 +14,7 @@ use crate::read_phase::phase;
 use crate::read_setup::{base_attitude, setup, start, stepper, torque_joints};
 use crate::reading::Reading;
 use crate::requirement::Requirement;
+use crate::sampled_loops::check_loops;
 use crate::sampling::{Sampling, check_sampling};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -179,10 +180,7 @@ fn read_case(
     check_sampling(r, &file, &sampling);
     let nominal = Nominal::of(&vehicle, (&start, base), &payloads, &fitted_sensors);
     let dispersions = dispersions(r, &file.disperse, &nominal);
-    let complaints = reading.complaints;
-    if complaints.iter().any(|c| c.severity == Severity::Error) {
-        return Err(complaints);
-    }
+    let mut complaints = reading.complaints;
     let case = Case {
         labels,
         vehicle_name: file.vehicle.clone(),
@@ -208,6 +206,10 @@ fn read_case(
         output_rate,
         snapshots: file.output.snapshots,
     };
+    complaints.extend(check_loops(document, &case));
+    if complaints.iter().any(|c| c.severity == Severity::Error) {
+        return Err(complaints);
+    }
     Ok((case, complaints))
 }
 

@@ -1,5 +1,6 @@
 //! Whether the integrator's step and the control period are short enough for what is fitted.
 
+use crate::figures::rounded;
 use crate::format::MissionFile;
 use crate::read_base::Turning;
 use crate::reading::Reading;
@@ -93,9 +94,4 @@ fn doubt_pulses(r: &mut Reading<'_>, sampling: &Sampling<'_>, modulation: &Modul
         let help = format!("a lag of ten periods, {} s, or more makes them even", rounded(due));
         r.warning(path, message, &help);
     }
-}
-
-/// Four figures.
-fn rounded(x: f64) -> f64 {
-    format!("{x:.3e}").parse().unwrap_or(x)
 }
