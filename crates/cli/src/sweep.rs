@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use wrasse_mission::{Mission, read_mission};
 use wrasse_record::{sweep_json, sweep_table, write_sweep};
-use wrasse_sweep::{SweepOutcome, sweep};
+use wrasse_sweep::{OwnedFolder, SweepError, SweepOutcome, sweep};
 
 /// Fly many samples of a mission: how often it succeeds, how its values spread, which samples are worst.
 ///
@@ -86,15 +86,15 @@ impl Sweep {
             return bad();
         }
         match self.fly(&mission, &folder) {
-            Ok(outcome) => self.hand_over(&outcome, &folder),
-            Err(sentence) => {
-                tell(&format!("error: {sentence}"));
+            Ok(code) => code,
+            Err(error) => {
+                tell(&format!("error: {error}"));
                 bad()
             }
         }
     }
 
-    fn fly(&self, mission: &Mission, folder: &Path) -> Result<SweepOutcome, String> {
+    fn fly(&self, mission: &Mission, folder: &Path) -> Result<ExitCode, SweepError> {
         let threads = self.threads.or_else(|| std::thread::available_parallelism().ok());
         let asked = wrasse_sweep::Sweep {
             mission,
@@ -102,10 +102,13 @@ impl Sweep {
             seed: self.seed.unwrap_or(mission.seed),
             threads: threads.map_or(1, NonZeroUsize::get),
         };
+        asked.check()?;
+        // It stays owned until the results are written: nobody else's come between.
+        let owned = OwnedFolder::take(&folder.join("parts"))?;
         let bar = Bar::counting();
-        let outcome = sweep(&asked, &folder.join("parts"), &mut |done, of| bar.count(done, of));
+        let outcome = sweep(&asked, &owned, &mut |done, of| bar.count(done, of));
         bar.done();
-        outcome.map_err(|error| error.to_string())
+        Ok(self.hand_over(&outcome?, folder))
     }
 
     /// Write the results, print what was asked for, say how it went.
@@ -124,6 +127,6 @@ impl Sweep {
             say(&format!("report: {}", written.report.display()));
         }
         let wanted = self.pass_rate.unwrap_or(0.0);
-        if outcome.cases.iter().all(|case| case.passed.low >= wanted) { YES } else { no() }
+        if outcome.cases.iter().all(|case| case.passed.sure >= wanted) { YES } else { no() }
     }
 }

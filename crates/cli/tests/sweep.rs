@@ -133,3 +133,38 @@ fn another_seed_in_the_same_folder_is_refused_and_a_wanted_pass_rate_decides_the
 fn a_seed_without_a_sample_is_refused() {
     assert_eq!(place().wrasse(&["run", "quick.toml", "--seed", "4"]).code, 2);
 }
+
+#[test]
+fn a_sweep_that_draws_nothing_is_refused_and_leaves_nothing_behind() {
+    let place = place();
+    let nothing = &MISSION[..MISSION.find("[[disperse]]").unwrap()];
+    place.put("nothing.toml", &nothing.replace("\"quick\"", "\"nothing\""));
+    let told = place.wrasse(&["sweep", "nothing.toml", "--samples", "300", "--pass-rate", "0.98"]);
+    assert_eq!(told.code, 2);
+    assert!(
+        told.err.contains("draws nothing") && told.err.contains("[[disperse]]"),
+        "{}",
+        told.err
+    );
+    assert!(place.names("out").is_empty());
+}
+
+#[test]
+fn of_two_sweeps_in_one_folder_the_second_is_refused_until_the_first_is_killed() {
+    let place = place();
+    let long = ["sweep", "quick.toml", "--samples", "5000", "--threads", "1", "--out", "both"];
+    let mut first =
+        place.command(&long).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let began = Instant::now();
+    while parts(&place, "both/parts") == 0 && began.elapsed() < Duration::from_mins(1) {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let short = ["sweep", "quick.toml", "--samples", "4", "--threads", "1", "--out", "both"];
+    let second = place.wrasse(&short);
+    assert_eq!(second.code, 2);
+    assert!(second.err.contains("another sweep is being flown in both"), "{}", second.err);
+    assert!(second.err.contains("--out"), "{}", second.err);
+    first.kill().unwrap();
+    first.wait().unwrap();
+    assert_eq!(place.wrasse(&short).code, 0, "what a killed one leaves holds nobody up");
+}

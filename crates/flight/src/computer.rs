@@ -120,6 +120,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
             set_points: told.set_points,
             effort: told.effort,
             effort_asked: told.effort_asked,
+            rate_share: told.rate_share,
             attitude_torque_B: told.attitude_torque_B,
             actuators: steered.command,
             steering: steered.report,

@@ -2,7 +2,7 @@
 
 use crate::computer::FlightComputer;
 use crate::navigation::Navigation;
-use crate::phase::Path;
+use crate::phase::{Held, Path};
 use crate::resolved_motion::{Assignment, task_jacobian};
 use crate::tool_pose::{Unreachable, joints_for_tool};
 use wrasse_dynamics::{Frame, Robot, State};
@@ -57,6 +57,11 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     /// Whether the current phase moves the tool along a line.
     pub fn follows_tool(&self) -> bool {
         self.guidance.follows_tool()
+    }
+
+    /// Whether nothing is driven in the current phase.
+    pub fn coasts(&self) -> bool {
+        matches!(self.guidance.path, Path::Still(Held::Nothing))
     }
 
     /// Whether all phases are done.

@@ -191,7 +191,7 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         let (from, began) = (self.belief, self.motion);
         let quat_NB = Quat::from_matrix(&from.X_NB.rotation);
         self.predict(robot, &quat_NB, period);
-        let locked = self.follow(robot, setup, asked, (&from, &began));
+        let (locked, rate_share) = self.follow(robot, setup, asked, (&from, &began));
         self.correct_base(&quat_NB, (&from, &began), period);
         // The joints are not quite where they were when the base's answer was worked out.
         let (law, h_B) = (setup.assignment.law, self.belief.h_Scm_B());
@@ -212,7 +212,9 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         if self.coasting {
             return Told::nothing(self.now, locked.M);
         }
-        told(robot, setup, sensed, (&now, &self.now), (locked.M, reaction_B), tool_wrench_E)
+        let inertia = (locked.M, reaction_B);
+        let told = told(robot, setup, sensed, (&now, &self.now), inertia, tool_wrench_E);
+        Told { rate_share, ..told }
     }
 
     /// The vehicle as the law believes it to be, and to move.
@@ -239,7 +241,8 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         self.belief.X_NB = moved_on(&self.belief.X_NB, quat_NB, &mean, period);
     }
 
-    /// The joints' motion at the end of the period, and the posture it ends in.
+    /// The joints' motion at the end of the period: the posture it ends in, and the share of the rates
+    /// that the rate limits leave (–).
     #[inline(always)]
     fn follow(
         &mut self,
@@ -247,15 +250,15 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         setup: &Setup<T, J>,
         asked: &Asked<T, J>,
         began: (&Belief<T, J>, &ResolvedMotion<T, J>),
-    ) -> Locked<T> {
+    ) -> (Locked<T>, T) {
         let still = [T::zero(); J];
-        match asked {
+        let locked = match asked {
             Asked::Tool { reference, axes, gain, gain_rate } => {
                 (self.reference, self.axes) = (*reference, *axes);
                 let joints = JointUse { gain: *gain, gain_rate: *gain_rate, ..setup.joints };
-                T::apart(FollowTool { memory: self, robot, setup, joints: &joints });
+                let share = T::apart(FollowTool { memory: self, robot, setup, joints: &joints });
                 self.correct_joints(robot, began, setup.tuning.period);
-                Locked::new(robot, &self.belief.q, &self.motion.rate.qdot)
+                return (Locked::new(robot, &self.belief.q, &self.motion.rate.qdot), share);
             }
             Asked::Joints(at) => {
                 self.belief.q = at.q;
@@ -270,12 +273,19 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
                 let rates = self.motion.rate.qdot;
                 self.answer(robot, setup, &rates, &still).0
             }
-        }
+        };
+        (locked, T::one())
     }
 
-    /// Joint motion that keeps the tool on its reference.
+    /// Joint motion that keeps the tool on its reference; the share of its rates that the rate limits
+    /// leave (–).
     #[inline(always)]
-    fn follow_tool(&mut self, robot: &Robot<T, J>, setup: &Setup<T, J>, joints: &JointUse<T, J>) {
+    fn follow_tool(
+        &mut self,
+        robot: &Robot<T, J>,
+        setup: &Setup<T, J>,
+        joints: &JointUse<T, J>,
+    ) -> T {
         let posture = Posture::new(robot, &self.belief.q);
         let X_BE = posture.pose(robot, &setup.assignment.tool);
         let X = match self.axes {
@@ -295,7 +305,9 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             Vdot_NE: self.reference.Vdot_NE_N - (error * back + surprise) * back,
         };
         let to = Assignment { axes: self.axes, ..setup.assignment };
-        self.motion = resolved_motion_in(robot, &to, &posture, &self.belief, &wanted, joints);
+        let found = resolved_motion_in(robot, &to, &posture, &self.belief, &wanted, joints);
+        self.motion = found.0;
+        found.1
     }
 
     /// Twist of the tool, at `X`, that the law did not expect.
@@ -432,10 +444,10 @@ struct FollowTool<'a, T, const J: usize> {
 }
 
 impl<T: Real, const J: usize> Work for FollowTool<'_, T, J> {
-    type Out = ();
+    type Out = T;
     #[inline(always)]
-    fn run(self) {
-        self.memory.follow_tool(self.robot, self.setup, self.joints);
+    fn run(self) -> T {
+        self.memory.follow_tool(self.robot, self.setup, self.joints)
     }
 }
 

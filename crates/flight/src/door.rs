@@ -68,6 +68,8 @@ pub struct Command<T, const J: usize> {
     pub effort: [T; J],
     /// The same before limits.
     pub effort_asked: [T; J],
+    /// Share of the rates that the tool's way asks of the joints which their rate limits leave (–).
+    pub rate_share: T,
     /// Torque that the base should feel over the period, base axes (N·m): what an ideal actuator is
     /// told, and what the steering has to give.
     pub attitude_torque_B: Vec3<T>,

@@ -25,6 +25,8 @@ pub struct Told<T, const J: usize> {
     pub attitude_torque_B: Vec3<T>,
     /// Force that keeps the base from giving way to a push at the tool, base axes (N).
     pub ahead_force_B: Vec3<T>,
+    /// Share of the rates that the tool's way asks of the joints which their rate limits leave (–).
+    pub rate_share: T,
     /// Inertia of the whole system with joints locked, about the base's origin in base axes.
     pub M_B: SpatialInertia<T>,
     /// How joints and base push each other.
@@ -42,6 +44,7 @@ impl<T: Real, const J: usize> Told<T, J> {
             effort,
             attitude_torque_B: none,
             ahead_force_B: none,
+            rate_share: T::one(),
             M_B,
             coupling: CouplingInertia::zero(),
         }
@@ -135,8 +138,18 @@ pub(crate) fn told<T: Real, const J: usize>(
     }
     let (set_points, ahead_force_B) = (*next, ahead_B.force);
     let effort_asked = effort;
-    Told { set_points, effort_asked, effort, attitude_torque_B, ahead_force_B, M_B, coupling }
-        .within_limits(robot, setup)
+    let rate_share = T::one();
+    Told {
+        set_points,
+        effort_asked,
+        effort,
+        attitude_torque_B,
+        ahead_force_B,
+        rate_share,
+        M_B,
+        coupling,
+    }
+    .within_limits(robot, setup)
 }
 
 /// Torques of the joints and wrench on the base that stand against a push at the tool.

@@ -299,10 +299,10 @@ pub fn resolved_motion<T: Real, const J: usize>(
     wanted: &WantedMotion<T>,
     joints: &JointUse<T, J>,
 ) -> ResolvedMotion<T, J> {
-    resolved_motion_in(robot, to, &Posture::new(robot, &belief.q), belief, wanted, joints)
+    resolved_motion_in(robot, to, &Posture::new(robot, &belief.q), belief, wanted, joints).0
 }
 
-/// The same in a posture that is at hand.
+/// The same in a posture that is at hand, and the share of the rates that the rate limits leave (–).
 ///
 /// With `q̇ = q̇₀ + Jᵀ y`, `(J Jᵀ + λ²) y = w - J q̇₀` the derivatives are
 /// `q̈ = e + Jᵀ ẏ`, `(J Jᵀ + λ²) ẏ = ẇ - J̇ q̇ - J e - λ̇² y`, `e = q̈₀ + J̇ᵀ y`.
@@ -314,7 +314,7 @@ pub(crate) fn resolved_motion_in<T: Real, const J: usize>(
     belief: &Belief<T, J>,
     wanted: &WantedMotion<T>,
     joints: &JointUse<T, J>,
-) -> ResolvedMotion<T, J> {
+) -> (ResolvedMotion<T, J>, T) {
     let (law_of_base, h_Scm_B) = (to.law, belief.h_Scm_B());
     let carried = Carried::new(law_of_base, robot, posture);
     let answer = base_answer(law_of_base, robot, &carried, &h_Scm_B);
@@ -343,7 +343,7 @@ pub(crate) fn resolved_motion_in<T: Real, const J: usize>(
     let A_NB_B = law.answer.caused_by(robot, &qddot)
         + changing.caused_by(robot, &rate.qdot)
         + changing.drift;
-    ResolvedMotion { rate, qddot, A_NB_B }
+    (ResolvedMotion { rate, qddot, A_NB_B }, solved.share)
 }
 
 /// Time derivatives of the rows of the Jacobian at the tool, in base axes.

@@ -4,7 +4,7 @@ use crate::dispersion::Target;
 use crate::mission::{PayloadCase, PayloadStart};
 use wrasse_dynamics::{JointKind, State};
 use wrasse_hardware::Sensors;
-use wrasse_spatial::Pose;
+use wrasse_spatial::{Pose, Vec3};
 use wrasse_vehicle::{JOINTS, Vehicle};
 use wrasse_world::BaseAttitude;
 
@@ -14,7 +14,12 @@ pub(crate) struct Dispersible {
     /// Its name, with axis or joint and unit.
     pub(crate) name: String,
     pub(crate) target: Target,
-    /// What the unit of the name is in SI.
+    /// The value of the files, in the unit of the name: of a share of itself a hundred percent, of a turn
+    /// from there nothing.
+    pub(crate) nominal: f64,
+    /// The unit of the name.
+    pub(crate) unit: &'static str,
+    /// What that unit is in SI.
     pub(crate) scale: f64,
     /// Least and largest deviation that leave it possible, in the unit of the name; and why.
     pub(crate) room: (f64, f64),
@@ -40,6 +45,10 @@ pub(crate) const FORMS: &str = "body.LINK or payload.NAME with .mass_kg, .centre
     of a joint, or nothing: each of them alike";
 
 const DEGREES: f64 = std::f64::consts::PI / 180.0;
+const METRES: (&str, f64) = ("m", 1.0);
+const METRES_S: (&str, f64) = ("m/s", 1.0);
+const DEG: (&str, f64) = ("deg", DEGREES);
+const DEG_S: (&str, f64) = ("deg/s", DEGREES);
 const ANYWHERE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 /// Least deviation of something in percent of itself: what is left is above zero.
 const PERCENT: (f64, f64) = (-100.0 * NEARLY, f64::INFINITY);
@@ -80,7 +89,8 @@ impl<'a> Nominal<'a> {
             }
             let name = format!("body.{}", named.name);
             matter(all, &name, mass, Target::BodyMass(body), Target::BodyInertia(body));
-            along_axes(all, &format!("{name}.centre_of_mass_m"), 1.0, |i| {
+            let centre = self.vehicle.robot.inertia(body).centre_of_mass();
+            along_axes(all, &format!("{name}.centre_of_mass_m"), METRES, centre, |i| {
                 Target::BodyCentre(body, i)
             });
         }
@@ -91,24 +101,27 @@ impl<'a> Nominal<'a> {
             let name = format!("payload.{}", payload.name);
             let mass = payload.matter.M_F_F.mass;
             matter(all, &name, mass, Target::PayloadMass(i), Target::PayloadInertia(i));
-            let mut add = |key: &str, scale: f64, target: fn(usize, usize) -> Target| {
-                along_axes(all, &format!("{name}.{key}"), scale, |axis| target(i, axis));
+            let mut add = |key: &str, unit, nominal, target: fn(usize, usize) -> Target| {
+                along_axes(all, &format!("{name}.{key}"), unit, nominal, |axis| target(i, axis));
             };
-            add("centre_of_mass_m", 1.0, Target::PayloadCentre);
-            if matches!(payload.start, PayloadStart::Free(..)) {
-                add("position_m", 1.0, Target::PayloadPosition);
-                add("rotation_deg", DEGREES, Target::PayloadRotation);
-                add("velocity_m_s", 1.0, Target::PayloadVelocity);
-                add("angular_velocity_deg_s", DEGREES, Target::PayloadTurn);
+            let centre = payload.matter.M_F_F.centre_of_mass();
+            add("centre_of_mass_m", METRES, centre, Target::PayloadCentre);
+            if let PayloadStart::Free(X_NT, V_NT_T) = &payload.start {
+                let (w_N, v_N) = (X_NT.rotation * V_NT_T.angular, X_NT.rotation * V_NT_T.linear);
+                add("position_m", METRES, X_NT.translation, Target::PayloadPosition);
+                add("rotation_deg", DEG, Vec3::zero(), Target::PayloadRotation);
+                add("velocity_m_s", METRES_S, v_N, Target::PayloadVelocity);
+                add("angular_velocity_deg_s", DEG_S, w_N, Target::PayloadTurn);
             }
         }
     }
 
     fn base(&self, all: &mut Vec<Dispersible>) {
-        along_axes(all, "initial.position_m", 1.0, Target::Position);
-        along_axes(all, "initial.rotation_deg", DEGREES, Target::Rotation);
-        along_axes(all, "initial.velocity_m_s", 1.0, Target::Velocity);
-        along_axes(all, "initial.angular_velocity_deg_s", DEGREES, Target::Turn);
+        let (p, V) = (self.start.X_NB.translation, self.start.V_NB_B);
+        along_axes(all, "initial.position_m", METRES, p, Target::Position);
+        along_axes(all, "initial.rotation_deg", DEG, Vec3::zero(), Target::Rotation);
+        along_axes(all, "initial.velocity_m_s", METRES_S, V.linear, Target::Velocity);
+        along_axes(all, "initial.angular_velocity_deg_s", DEG_S, V.angular, Target::Turn);
         if self.base == BaseAttitude::Held {
             for held in all.iter_mut().filter(|d| matches!(d.target, Target::Turn(_))) {
                 (held.room, held.why) = ((0.0, 0.0), "a base that is held does not turn".into());
@@ -120,10 +133,10 @@ impl<'a> Nominal<'a> {
         let vehicle = self.vehicle;
         for (j, name) in vehicle.joint_names.iter().enumerate() {
             let turns = vehicle.robot.joint(j).kind == JointKind::Revolute;
-            let (keys, scale) = if turns {
-                (["joints_deg", "joint_rates_deg_s"], DEGREES)
+            let (keys, units, scale) = if turns {
+                (["joints_deg", "joint_rates_deg_s"], ["deg", "deg/s"], DEGREES)
             } else {
-                (["joints_m", "joint_rates_m_s"], 1.0)
+                (["joints_m", "joint_rates_m_s"], ["m", "m/s"], 1.0)
             };
             let (room, why) = match vehicle.limits[j].travel {
                 None => (ANYWHERE, String::new()),
@@ -134,29 +147,49 @@ impl<'a> Nominal<'a> {
                 }
             };
             let [position, rate] = keys.map(|key| format!("initial.{key}.{name}"));
-            all.push(Dispersible { name: position, target: Target::Joint(j), scale, room, why });
-            let why = String::new();
-            let (target, room) = (Target::JointRate(j), ANYWHERE);
-            all.push(Dispersible { name: rate, target, scale, room, why });
+            let (q, v) = (self.start.q[j] / scale, self.start.v[j] / scale);
+            all.push(Dispersible {
+                name: position,
+                target: Target::Joint(j),
+                nominal: q,
+                unit: units[0],
+                scale,
+                room,
+                why,
+            });
+            all.push(Dispersible {
+                name: rate,
+                target: Target::JointRate(j),
+                nominal: v,
+                unit: units[1],
+                scale,
+                room: ANYWHERE,
+                why: String::new(),
+            });
         }
     }
 
     fn sensors(&self, all: &mut Vec<Dispersible>) {
         let sensors = self.sensors;
         let mut share = |name: &str, target| {
-            let why = "less than nothing cannot be left".into();
-            let (name, scale, room) = (name.into(), 0.01, PERCENT);
-            all.push(Dispersible { name, target, scale, room, why });
+            all.push(of_itself(name.into(), target, "less than nothing cannot be left"));
         };
         if sensors.encoder_step > 0.0 {
             share("sensors.encoder_step_percent", Target::EncoderStep);
         }
-        if sensors.attitude.is_some() {
+        if let Some((gyro, _)) = &sensors.attitude {
             share("sensors.gyro.noise_percent", Target::GyroNoise);
             share("sensors.star_tracker.noise_percent", Target::TrackerNoise);
-            along_axes(all, "sensors.gyro.bias_deg_h", DEGREES / 3600.0, Target::GyroBias);
+            let unit = ("deg/h", DEGREES / 3600.0);
+            along_axes(all, "sensors.gyro.bias_deg_h", unit, gyro.bias_B, Target::GyroBias);
         }
     }
+}
+
+/// Something in percent of itself.
+fn of_itself(name: String, target: Target, why: &str) -> Dispersible {
+    let (nominal, unit, scale, room) = (100.0, "%", 0.01, PERCENT);
+    Dispersible { name, target, nominal, unit, scale, room, why: why.into() }
 }
 
 /// Mass and inertia of a body.
@@ -164,30 +197,30 @@ fn matter(all: &mut Vec<Dispersible>, name: &str, mass: f64, of_mass: Target, of
     all.push(Dispersible {
         name: format!("{name}.mass_kg"),
         target: of_mass,
+        nominal: mass,
+        unit: "kg",
         scale: 1.0,
         room: (-mass * NEARLY, f64::INFINITY),
         why: format!("a mass stays above zero, and this one is {mass} kg"),
     });
-    all.push(Dispersible {
-        name: format!("{name}.inertia_percent"),
-        target: of_inertia,
-        scale: 0.01,
-        room: PERCENT,
-        why: "an inertia stays above zero".into(),
-    });
+    let name = format!("{name}.inertia_percent");
+    all.push(of_itself(name, of_inertia, "an inertia stays above zero"));
 }
 
-/// One for each axis.
+/// One for each axis, of a vector in SI.
 fn along_axes(
     all: &mut Vec<Dispersible>,
     name: &str,
-    scale: f64,
+    (unit, scale): (&'static str, f64),
+    nominal: Vec3<f64>,
     target: impl Fn(usize) -> Target,
 ) {
     for (i, axis) in ["x", "y", "z"].into_iter().enumerate() {
         all.push(Dispersible {
             name: format!("{name}.{axis}"),
             target: target(i),
+            nominal: nominal.to_array()[i] / scale,
+            unit,
             scale,
             room: ANYWHERE,
             why: String::new(),

@@ -109,7 +109,10 @@ pub(crate) struct Dispersion {
     pub(crate) name: String,
     pub(crate) target: Target,
     pub(crate) distribution: Distribution,
-    /// What the unit of the name is in SI.
+    /// The value of the files in the unit of the name, and that unit.
+    pub(crate) nominal: f64,
+    pub(crate) unit: &'static str,
+    /// What that unit is in SI.
     pub(crate) scale: f64,
     /// Whether the flight computer knows what was drawn.
     pub(crate) known: bool,
@@ -131,6 +134,8 @@ mod tests {
             name: String::new(),
             target: Target::GyroNoise,
             distribution: *distribution,
+            nominal: 100.0,
+            unit: "%",
             scale: 1.0,
             known: false,
         };

@@ -59,7 +59,7 @@ pub(crate) fn fly(
             end = stop;
             break;
         }
-        track.follow(&command, flight.computer.follows_tool());
+        track.follow(&command, &flight.computer);
         flight.world.update_ledger(&mut ledger);
         let error = flight.estimate_error;
         let truth = Truth::of(&flight.world, Needs::ALL);

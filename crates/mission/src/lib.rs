@@ -3,6 +3,7 @@
 
 mod applied_wrench;
 mod arm_shape;
+mod asked;
 mod base_format;
 mod books;
 mod case_world;
@@ -40,6 +41,7 @@ mod saturations;
 mod sensing;
 mod telemetry;
 mod telling;
+mod variation;
 
 pub use base_format::ClaimIs;
 pub use mission::{Mission, Study};

@@ -1,6 +1,7 @@
 //! What is seen of the truth after each control period.
 
 use crate::arm_shape::{reach_margin, smallest_singular_value};
+use crate::asked::{Asked, gimbal_motors, gimbal_rates, wheel_speeds};
 use crate::mission::Case;
 use crate::quantity::FIXED_COUNT;
 use crate::read_base::Turning;
@@ -8,11 +9,11 @@ use wrasse_dynamics::{
     BodyId, Dynamics, Frame, Generalized, JointKind, Kinematics, Outside, State, inverse_dynamics,
     kinematics, kinetic_energy, mount_reaction,
 };
-use wrasse_flight::{Axes, Command};
+use wrasse_flight::{Axes, Command, FlightComputer};
 use wrasse_hardware::ActuatorReadings;
 use wrasse_spatial::{Pose, Quat, SpatialForce, SpatialVelocity, Vec3};
 use wrasse_vehicle::JOINTS;
-use wrasse_world::World;
+use wrasse_world::{BaseAttitude, World};
 
 /// The truth at one instant.
 #[derive(Debug, Clone)]
@@ -91,11 +92,19 @@ pub(crate) struct Track {
     start: Vec3<f64>,
     last: Vec3<f64>,
     direction: Option<Vec3<f64>>,
+    /// Nothing is driven: there is nowhere that the tool should be, and nothing is steered.
+    coasting: bool,
 }
 
 impl Track {
-    /// Follow the reference of a command.
-    pub(crate) fn follow(&mut self, command: &Command<f64, JOINTS>, moves_tool: bool) {
+    /// Follow the reference of a command that this computer gave.
+    pub(crate) fn follow(
+        &mut self,
+        command: &Command<f64, JOINTS>,
+        computer: &FlightComputer<f64, JOINTS>,
+    ) {
+        let moves_tool = computer.follows_tool();
+        self.coasting = computer.coasts();
         let at = command.reference.X_NE.translation;
         if self.phase != Some(command.phase) {
             if moves_tool || self.phase.is_none() {
@@ -112,7 +121,8 @@ impl Track {
     }
     /// Signed error along the line and error across it (m); NaN where there is no line.
     fn split(&self, error: Vec3<f64>) -> (f64, f64) {
-        self.direction.map_or((f64::NAN, f64::NAN), |direction| {
+        let direction = self.direction.filter(|_| !self.coasting);
+        direction.map_or((f64::NAN, f64::NAN), |direction| {
             let along = error.dot(direction);
             (along, (error - direction * along).norm())
         })
@@ -195,17 +205,19 @@ pub(crate) fn observe(
         state,
     };
     let shape = if needs.shape { shape(case, jacobian, &k, &tool) } else { (nan, nan) };
-    let energy = if needs.energy { kinetic_energy(&k) } else { nan };
-    let of_any = values(case, &seen, track, mounts, shape, energy);
+    let energy = if needs.energy { there(kinetic_energy(&k)) } else { nan };
+    let asked = Asked::of(case, command, world, &seen);
+    let of_any = values(case, &seen, track, &asked, mounts, shape, energy);
     let motors = if needs.motors { motor_torque(case, world) } else { nan };
-    let equipped = of_equipment(case, command, &seen, estimate_error, motors);
+    let equipped = of_equipment(case, (command, track), &seen, &asked, estimate_error, motors);
     let of_joints = world.robot().joints().flat_map(|j| {
         [
             seen.state.q[j] - case.start.q[j],
             command.set_points[j].position - case.start.q[j],
-            seen.state.v[j],
-            seen.dynamics.force.joints[j],
+            asked.rates[j],
+            asked.efforts[j],
         ]
+        .map(there)
     });
     let all = of_any.into_iter().chain(equipped).chain(of_joints);
     seen.values.iter_mut().zip(all).for_each(|(to, value)| *to = value);
@@ -219,8 +231,8 @@ fn shape(
     k: &Kinematics<'_, f64, JOINTS>,
     tool: &Frame<f64>,
 ) -> (f64, f64) {
-    let reach = reach_margin(k, tool).unwrap_or(f64::NAN);
-    (reach, smallest_singular_value(&jacobian(), case.setup.assignment.task))
+    let reach = reach_margin(k, tool).map_or(f64::NAN, there);
+    (reach, there(smallest_singular_value(&jacobian(), case.setup.assignment.task)))
 }
 
 /// Accelerations and forces that nobody asked for.
@@ -238,7 +250,7 @@ fn motor_torque(case: &Case, world: &World<JOINTS>) -> f64 {
     if case.equipment.actuators.gyros.is_empty() {
         return f64::NAN;
     }
-    world.gimbal_motor_torque().iter().fold(0.0, |most: f64, x| most.max(x.abs()))
+    largest(gimbal_motors(world).map(f64::abs))
 }
 
 /// Momentum in wheels and gyros beside the base (N·m·s, base axes).
@@ -258,26 +270,28 @@ fn stores_momentum(case: &Case) -> bool {
 /// none.
 fn of_equipment(
     case: &Case,
-    command: &Command<f64, JOINTS>,
+    (command, track): (&Command<f64, JOINTS>, &Track),
     seen: &Observation,
+    asked: &Asked,
     estimate_error: f64,
     motor_torque: f64,
 ) -> [f64; 8] {
     let (actuators, readings) = (&case.equipment.actuators, &seen.readings);
-    let largest = |uses: &mut dyn Iterator<Item = f64>| uses.fold(f64::NAN, f64::max);
-    let wheels = actuators.wheels.iter().zip(readings.wheel_speed);
-    let gyros = actuators.gyros.iter().zip(readings.gimbal_rate);
+    let use_of = |(x, limit): (f64, f64)| x.abs() / limit;
+    let wheels = wheel_speeds(case, asked.torque_cut_B, readings).map(use_of);
+    let gyros = gimbal_rates(case, command, asked.torque_cut_B, readings).map(use_of);
     let fitted = case.turning == Turning::Fitted;
-    let missing = |x: f64| if fitted { x } else { f64::NAN };
+    let steered = fitted && !actuators.gyros.is_empty() && !track.coasting;
+    let missing = |is_there: bool, x: Vec3<f64>| if is_there { there(x.norm()) } else { f64::NAN };
     let tank = actuators.tank.map_or(f64::NAN, |tank| tank.propellant);
     [
-        missing(command.steering.missing.torque.norm()),
-        missing(command.steering.missing.force.norm()),
+        missing(case.base == BaseAttitude::Controlled, asked.torque_cut_B),
+        missing(fitted && case.setup.base.position_hold.is_some(), command.steering.missing.force),
         estimate_error,
-        largest(&mut wheels.map(|(w, speed)| speed.abs() / w.speed_limit)),
-        largest(&mut gyros.map(|(g, rate)| rate.abs() / g.rate_limit)),
+        largest(wheels),
+        largest(gyros),
         motor_torque,
-        if actuators.gyros.is_empty() { f64::NAN } else { missing(command.steering.singularity) },
+        if steered { there(command.steering.singularity) } else { f64::NAN },
         tank - readings.propellant,
     ]
 }
@@ -305,17 +319,24 @@ fn values(
     case: &Case,
     seen: &Observation,
     track: &Track,
+    asked: &Asked,
     mounts: (f64, f64),
     shape: (f64, f64),
     energy: f64,
 ) -> [f64; FIXED_COUNT - 8] {
     let (along, across) = track.split(seen.tool_error.0);
+    let cut_B = asked.torque_cut_B;
+    // Thrusters alone have no torque at an instant, and store nothing; a free base has nobody who could.
+    let turned = case.base != BaseAttitude::Free;
+    let holds = turned && (case.turning != Turning::Fitted || stores_momentum(case));
+    let given = |x: Vec3<f64>| (holds && !x.norm().is_nan()).then_some(x);
+    let off = |error: Vec3<f64>| if track.coasting { f64::NAN } else { there(error.norm()) };
     let use_of = |value: &dyn Fn(usize) -> (f64, Option<f64>)| {
         let shares = (0..case.vehicle.limits.len()).filter_map(|j| {
             let (x, limit) = value(j);
             limit.map(|limit| x.abs() / limit)
         });
-        shares.fold(f64::NAN, f64::max)
+        largest(shares)
     };
     let margin = |kind: JointKind| {
         let joints = case.vehicle.limits.iter().enumerate();
@@ -324,28 +345,39 @@ fn values(
             let q = seen.state.q[j];
             limits.travel.map(|(lower, upper)| (q - lower).min(upper - q))
         });
-        margins.fold(f64::NAN, f64::min)
+        -largest(margins.map(|margin| -margin))
     };
     [
-        seen.tool_error.0.norm(),
+        off(seen.tool_error.0),
         along,
         across,
-        seen.tool_error.1.norm(),
-        seen.V_NE.linear.norm(),
-        seen.V_NE.angular.norm(),
-        seen.base_turn.norm(),
-        seen.base_shift.norm(),
-        seen.state.V_NB_B.angular.norm(),
-        use_of(&|j| (seen.state.v[j], case.vehicle.limits[j].rate)),
-        use_of(&|j| (seen.dynamics.force.joints[j], case.vehicle.limits[j].effort)),
+        off(seen.tool_error.1),
+        there(seen.V_NE.linear.norm()),
+        there(seen.V_NE.angular.norm()),
+        there(seen.base_turn.norm()),
+        there(seen.base_shift.norm()),
+        there(seen.state.V_NB_B.angular.norm()),
+        use_of(&|j| (asked.rates[j], case.vehicle.limits[j].rate)),
+        use_of(&|j| (asked.efforts[j], case.vehicle.limits[j].effort)),
         margin(JointKind::Revolute),
         margin(JointKind::Prismatic),
         shape.0,
         shape.1,
         mounts.0,
         mounts.1,
-        seen.torque_B.norm(),
-        seen.stored_B.norm(),
+        // Of what is given and what is cut: what was asked for. What is stored goes the other way.
+        given(seen.torque_B).map_or(f64::NAN, |torque_B| there((torque_B + cut_B).norm())),
+        given(seen.stored_B).map_or(f64::NAN, |h_B| there((h_B - cut_B * case.period()).norm())),
         energy,
     ]
+}
+
+/// The value of a quantity that is there: one that is no number is beyond every limit.
+fn there(x: f64) -> f64 {
+    if x.is_nan() { f64::INFINITY } else { x }
+}
+
+/// The largest of some values; infinite if one is no number, NaN of none.
+fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().map(there).fold(f64::NAN, f64::max)
 }

@@ -171,7 +171,8 @@ pub(crate) fn quantities(joints: &[(String, bool)]) -> Vec<Quantity> {
     all
 }
 
-/// Running statistics of one quantity. Values that are absent (NaN) do not count.
+/// Running statistics of one quantity. Where it is absent (NaN) it does not count; after a value that is
+/// not finite none of its statistics has a value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Running {
     largest: f64,
@@ -179,11 +180,19 @@ pub(crate) struct Running {
     last: f64,
     squares: f64,
     count: f64,
+    broken: bool,
 }
 
 impl Default for Running {
     fn default() -> Self {
-        Self { largest: 0.0, smallest: f64::INFINITY, last: f64::NAN, squares: 0.0, count: 0.0 }
+        Self {
+            largest: 0.0,
+            smallest: f64::INFINITY,
+            last: f64::NAN,
+            squares: 0.0,
+            count: 0.0,
+            broken: false,
+        }
     }
 }
 
@@ -192,20 +201,23 @@ impl Running {
         if x.is_nan() {
             return;
         }
+        self.last = x;
+        self.broken |= x.is_infinite();
         self.largest = self.largest.max(x.abs());
         self.smallest = self.smallest.min(x);
-        self.last = x;
         self.squares += x * x;
         self.count += 1.0;
     }
-    /// The statistic; `None` before the first value.
+    /// The statistic; `None` where there is none: before the first value, and after one that is not finite.
     pub(crate) fn get(&self, statistic: Statistic) -> Option<f64> {
-        (self.count > 0.0).then(|| match statistic {
+        let value = match statistic {
+            _ if self.count == 0.0 || self.broken => return None,
             Statistic::Max => self.largest,
             Statistic::Min => self.smallest,
             Statistic::Final => self.last,
             Statistic::Rms => (self.squares / self.count).sqrt(),
-        })
+        };
+        value.is_finite().then_some(value)
     }
 }
 

@@ -38,6 +38,8 @@ pub(crate) fn dispersions(
                 name: one.name.clone(),
                 target: one.target,
                 distribution,
+                nominal: one.nominal,
+                unit: one.unit,
                 scale: one.scale,
                 known: file.known,
             });

@@ -53,6 +53,15 @@ impl Mission {
         self.cases[case].dispersions.iter().map(|d| d.name.as_str()).collect()
     }
 
+    /// What a sample draws anew in a case: the values of the files, with their units. What a sample
+    /// deviates is added to them.
+    ///
+    /// # Panics
+    /// If there is no case of this number.
+    pub fn nominal(&self, case: usize) -> Vec<(f64, &'static str)> {
+        self.cases[case].dispersions.iter().map(|d| (d.nominal, d.unit)).collect()
+    }
+
     /// Number of requirements of a case.
     ///
     /// # Panics
@@ -96,13 +105,13 @@ impl Mission {
         mission.cases = self.cases.iter().map(|case| case.sampled(seed, sample)).collect();
         let case = &self.cases[0];
         let (_, sizes) = draws(&case.dispersions, seed, sample);
-        let drawn = case.dispersions.iter().zip(sizes).map(|(d, x)| format!("{} {x:+.5}", d.name));
+        let drawn = case.dispersions.iter().zip(sizes).map(|(d, x)| {
+            let value = d.nominal + x;
+            format!("{} is {value:.6} {} ({x:+.5})", d.name, d.unit)
+        });
         let drawn: Vec<String> = drawn.collect();
-        mission.summary = format!(
-            "{} Sample {sample} of seed {seed}, off by: {}.",
-            self.summary,
-            drawn.join(", ")
-        );
+        mission.summary =
+            format!("{} Sample {sample} of seed {seed}: {}.", self.summary, drawn.join(", "));
         mission
     }
 }
@@ -210,7 +219,7 @@ fn fly_for_verdicts(case: &Case, plan: &Plan, planned: &SamplePlan<'_>) -> Flown
             end = stop;
             break;
         }
-        track.follow(&command, flight.computer.follows_tool());
+        track.follow(&command, &flight.computer);
         flight.world.update_ledger(&mut books);
         let (error, needs) = (flight.estimate_error, planned.needs);
         let truth = Truth::of(&flight.world, needs);

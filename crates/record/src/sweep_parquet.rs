@@ -10,7 +10,7 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::{Type, TypePtr};
 use wrasse_mission::End;
-use wrasse_sweep::{CaseSweep, Row, SweepOutcome};
+use wrasse_sweep::{CaseSweep, DrawnValue, Row, SweepOutcome};
 
 use crate::RecordError;
 use crate::comparison::name_of;
@@ -25,8 +25,9 @@ enum Holds<'a> {
     Closes,
     End,
     Reason,
-    /// What was drawn of this quantity.
+    /// How far from the files this quantity was, and its value in flight.
     Drawn(&'a str),
+    Flown(&'a str),
     /// The value that this requirement is about.
     Value(&'a str),
     /// Whether this requirement holds.
@@ -36,8 +37,8 @@ enum Holds<'a> {
 /// The bytes of `samples.parquet`.
 ///
 /// Columns: `case` (text), `sample`, `passed`, `closes` (whether the books do), `end`, `reason` (null
-/// where the flight was completed); then `drawn NAME` for each dispersed quantity, a deviation in the
-/// unit of its name; then for each requirement `value REQUIREMENT` in its unit (null where there is
+/// where the flight was completed); then for each dispersed quantity `drawn NAME`, its deviation from the
+/// files, and `flown NAME [UNIT]`, the value that flew; then for each requirement `value REQUIREMENT` in its unit (null where there is
 /// none) and `holds REQUIREMENT`. A case without a quantity or requirement has nulls there. One row
 /// group for each case. Key-value metadata: `mission`, `version`, `seed`, `samples`. The same outcome
 /// gives the same bytes.
@@ -52,7 +53,8 @@ pub fn samples_parquet(outcome: &SweepOutcome) -> Result<Vec<u8>, RecordError> {
         .set_key_value_metadata(Some(metadata(outcome)))
         .build();
     let mut bytes = Vec::new();
-    let mut file = SerializedFileWriter::new(&mut bytes, schema(&columns)?, Arc::new(properties))?;
+    let mut file =
+        SerializedFileWriter::new(&mut bytes, schema(outcome, &columns)?, Arc::new(properties))?;
     for case in outcome.cases.iter().filter(|case| !case.rows.is_empty()) {
         let mut rows = file.next_row_group()?;
         for column in &columns {
@@ -69,8 +71,10 @@ fn columns(outcome: &SweepOutcome) -> Vec<Holds<'_>> {
     let mut all =
         vec![Holds::Case, Holds::Sample, Holds::Passed, Holds::Closes, Holds::End, Holds::Reason];
     let mut seen = BTreeSet::new();
-    let drawn = outcome.cases.iter().flat_map(|case| &case.dispersed);
-    all.extend(drawn.filter(|name| seen.insert(*name)).map(|name| Holds::Drawn(name)));
+    let drawn = outcome.cases.iter().flat_map(|case| &case.drawn).map(|d| d.quantity.as_str());
+    for name in drawn.filter(|name| seen.insert(*name)) {
+        all.extend([Holds::Drawn(name), Holds::Flown(name)]);
+    }
     let mut seen = BTreeSet::new();
     let required = outcome.cases.iter().flat_map(|case| &case.requirements);
     for requirement in required.map(|r| &r.requirement).filter(|text| seen.insert(*text)) {
@@ -79,7 +83,7 @@ fn columns(outcome: &SweepOutcome) -> Vec<Holds<'_>> {
     all
 }
 
-fn schema(columns: &[Holds<'_>]) -> Result<TypePtr, RecordError> {
+fn schema(outcome: &SweepOutcome, columns: &[Holds<'_>]) -> Result<TypePtr, RecordError> {
     let mut fields = vec![];
     for column in columns {
         let (name, kind, is_optional) = match column {
@@ -90,6 +94,11 @@ fn schema(columns: &[Holds<'_>]) -> Result<TypePtr, RecordError> {
             Holds::End => ("end".to_owned(), Physical::BYTE_ARRAY, false),
             Holds::Reason => ("reason".to_owned(), Physical::BYTE_ARRAY, true),
             Holds::Drawn(quantity) => (format!("drawn {quantity}"), Physical::DOUBLE, true),
+            Holds::Flown(quantity) => (
+                format!("flown {quantity} [{}]", unit_of(outcome, quantity)),
+                Physical::DOUBLE,
+                true,
+            ),
             Holds::Value(requirement) => (format!("value {requirement}"), Physical::DOUBLE, true),
             Holds::Verdict(requirement) => {
                 (format!("holds {requirement}"), Physical::BOOLEAN, true)
@@ -138,10 +147,9 @@ fn write_column(
         Holds::Passed => flags(rows, all.iter().map(|row| Some(row.passed)), false),
         Holds::Closes => flags(rows, all.iter().map(|row| Some(row.closes)), false),
         Holds::Drawn(quantity) => {
-            let place = case.dispersed.iter().position(|name| name == quantity);
-            let of = |row: &Row| place.and_then(|i| row.deviations.get(i).copied());
-            numbers(rows, all.iter().map(of))
+            numbers(rows, drawn(case, quantity).map(|x| x.map(|x| x.deviation)))
         }
+        Holds::Flown(quantity) => numbers(rows, drawn(case, quantity).map(|x| x.map(|x| x.flown))),
         Holds::Value(requirement) => {
             let place = place_of(case, requirement);
             numbers(rows, all.iter().map(|row| place.and_then(|i| row.values[i])))
@@ -151,6 +159,24 @@ fn write_column(
             flags(rows, all.iter().map(|row| place.map(|i| row.holds[i])), true)
         }
     }
+}
+
+/// The unit of a drawn quantity.
+fn unit_of<'o>(outcome: &'o SweepOutcome, quantity: &str) -> &'o str {
+    let mut all = outcome.cases.iter().flat_map(|case| &case.drawn);
+    all.find(|drawn| drawn.quantity == quantity).map_or("", |drawn| drawn.unit.as_str())
+}
+
+/// What was drawn of a quantity in each sample of a case, if it is drawn there.
+fn drawn<'c>(
+    case: &'c CaseSweep,
+    quantity: &str,
+) -> impl Iterator<Item = Option<DrawnValue>> + use<'c> {
+    let place = case.drawn.iter().position(|drawn| drawn.quantity == quantity);
+    case.rows.iter().map(move |row| {
+        let i = place?;
+        Some(case.drawn[i].with(*row.deviations.get(i)?))
+    })
 }
 
 fn place_of(case: &CaseSweep, requirement: &str) -> Option<usize> {

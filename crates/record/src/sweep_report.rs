@@ -1,6 +1,6 @@
 //! The report of a sweep: one page that opens without a network and needs no script.
 
-use wrasse_sweep::{CaseSweep, RequirementSweep, SweepOutcome};
+use wrasse_sweep::{CaseSweep, DrawnValue, PassRate, RequirementSweep, SweepOutcome};
 
 use crate::comparison::name_of;
 use crate::markup::{escaped, figure, table, words};
@@ -67,7 +67,7 @@ fn compared(outcome: &SweepOutcome) -> String {
             vec![
                 format!("<td><a href=\"#case-{}\">{name}</a></td>", k + 1),
                 words(&pass_rate(&case.passed)),
-                rate_bar(case.passed.low, case.passed.share(), case.passed.high),
+                rate_bar(&case.passed),
             ]
         })
         .collect();
@@ -78,8 +78,12 @@ fn compared(outcome: &SweepOutcome) -> String {
     )
 }
 
-/// A share from 0 to 1 as a mark, its interval as a bar.
-fn rate_bar(low: f64, share: f64, high: f64) -> String {
+/// A share from 0 to 1 as a mark, its interval as a bar, if it has one.
+fn rate_bar(rate: &PassRate) -> String {
+    let share = rate.share();
+    let Some([low, high]) = rate.interval else {
+        return words(if rate.of > 1 { "the same in all" } else { "" });
+    };
     format!(
         "<td><svg class=\"rate\" viewBox=\"0 0 200 14\" role=\"img\" aria-label=\"from {:.1} % to {:.1} %\">\
          <rect class=\"field\" x=\"0\" y=\"3\" width=\"200\" height=\"8\"/>\
@@ -122,7 +126,7 @@ fn requirements(case: &CaseSweep) -> String {
             let mut cells = vec![
                 words(&r.requirement),
                 figure(&format!("{} of {}", r.holds.passed, r.holds.of)),
-                rate_bar(r.holds.low, r.holds.share(), r.holds.high),
+                rate_bar(&r.holds),
             ];
             cells.extend(figures(r).iter().map(|text| figure(text)));
             cells.push(words(&r.unit));
@@ -185,6 +189,7 @@ fn drawing(case: &CaseSweep, i: usize, requirement: &RequirementSweep) -> String
             vec![
                 figure(&worst.sample.to_string()),
                 figure(&worst.value.map_or("none".to_owned(), significant)),
+                words(&flown(&worst.drawn)),
                 format!("<td><code>{}</code></td>", escaped(&worst.command)),
             ]
         })
@@ -193,24 +198,34 @@ fn drawing(case: &CaseSweep, i: usize, requirement: &RequirementSweep) -> String
         "<figure><h3>{}</h3>\n{svg}\n{goes_with}<details><summary>The worst samples</summary>\n{}</details>\
          </figure>\n",
         escaped(&requirement.requirement),
-        table("text", &["Sample", "Value", "Fly it again"], &worst)
+        table("text", &["Sample", "Value", "Flown with", "Fly it again"], &worst)
     )
 }
 
+/// Values with their deviations: `payload.module.mass_kg 208.3 kg (+8.3)`.
+fn flown(drawn: &[DrawnValue]) -> String {
+    let each = drawn.iter().map(|d| {
+        let sign = if d.deviation < 0.0 { "" } else { "+" };
+        let (value, off) = (significant(d.flown), significant(d.deviation));
+        format!("{} {value} {} ({sign}{off})", d.quantity, d.unit)
+    });
+    each.collect::<Vec<_>>().join(", ")
+}
+
 fn what_was_flown(outcome: &SweepOutcome) -> String {
-    let drawn: Vec<_> = outcome
-        .cases
-        .first()
-        .map(|case| case.dispersed.iter().map(|name| format!("<li>{}</li>", escaped(name))))
-        .into_iter()
-        .flatten()
-        .collect();
+    let drawn = outcome.cases.first().map_or(&[][..], |case| &case.drawn);
     let drawn = if drawn.is_empty() {
         "<p>The mission disperses nothing: its samples differ by the noise of sensors and thrusters \
          only.</p>\n"
             .to_owned()
     } else {
-        format!("<p>Drawn anew in each sample:</p>\n<ul>{}</ul>\n", drawn.concat())
+        let shown = |x: Option<f64>| figure(&x.map_or("none".to_owned(), significant));
+        let rows = drawn.iter().map(|d| {
+            let values = [shown(Some(d.nominal)), shown(d.least), shown(d.largest)];
+            [vec![words(&d.quantity)], values.to_vec(), vec![words(&d.unit)]].concat()
+        });
+        let head = ["Drawn anew in each sample", "Files say", "Flown from", "to", "Unit"];
+        table("text", &head, &rows.collect::<Vec<_>>())
     };
     format!(
         "<section id=\"run\">\n<h2><a href=\"#run\">What was flown</a></h2>\n<dl>\n<dt>Mission file</dt>\

@@ -10,7 +10,7 @@ use crate::sweep_parquet::samples_parquet;
 use crate::sweep_report::sweep_html;
 
 /// Version of the summary's layout; it rises when a key changes its meaning or goes away.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 /// Where the results of a sweep are.
 #[derive(Debug, Clone, PartialEq, Eq)]

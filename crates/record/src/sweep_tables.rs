@@ -1,6 +1,6 @@
 //! A sweep as plain text, for the terminal.
 
-use wrasse_sweep::{CaseSweep, PassRate, RequirementSweep, SweepOutcome};
+use wrasse_sweep::{CaseSweep, Drawn, PassRate, RequirementSweep, SweepOutcome};
 
 use crate::comparison::name_of;
 use crate::numbers::significant;
@@ -20,6 +20,7 @@ pub fn sweep_table(outcome: &SweepOutcome) -> String {
 
 fn of_case(case: &CaseSweep) -> String {
     let mut text = requirements(&case.requirements);
+    text += &drawn(&case.drawn);
     text += &format!("\n{} pass\n", pass_rate(&case.passed));
     for end in case.ends.iter().filter(|end| end.end != "completed") {
         text += &format!(
@@ -48,18 +49,40 @@ fn of_case(case: &CaseSweep) -> String {
     text
 }
 
-/// `483 of 500 (96.6 %, with 95 % confidence from 94.6 % to 98.0 %)`
+/// `483 of 500 (96.6 %; with 95 % confidence 94.6 % to 98.0 %)`; without an interval where nothing varies.
 pub(crate) fn pass_rate(rate: &PassRate) -> String {
     let percent = |share: f64| format!("{} %", significant((share * 1e5).round() * 1e-3));
-    format!(
-        "{} of {} ({}; with {} confidence {} to {})",
-        rate.passed,
-        rate.of,
-        percent(rate.share()),
-        percent(wrasse_sweep::CONFIDENCE),
-        percent(rate.low),
-        percent(rate.high)
-    )
+    let share = format!("{} of {} ({}", rate.passed, rate.of, percent(rate.share()));
+    match rate.interval {
+        Some([low, high]) => format!(
+            "{share}; with {} confidence {} to {})",
+            percent(wrasse_sweep::CONFIDENCE),
+            percent(low),
+            percent(high)
+        ),
+        None => format!("{share}; nothing varies, so there is no confidence to state)"),
+    }
+}
+
+/// The values flown of what was drawn.
+fn drawn(all: &[Drawn]) -> String {
+    if all.is_empty() {
+        return String::new();
+    }
+    let head = ["drawn", "files say", "flown from", "to", "unit"];
+    let mut rows = vec![head.map(String::from).to_vec()];
+    for drawn in all {
+        let shown = |x: Option<f64>| x.map_or("-".to_owned(), significant);
+        rows.push(vec![
+            drawn.quantity.clone(),
+            significant(drawn.nominal),
+            shown(drawn.least),
+            shown(drawn.largest),
+            drawn.unit.clone(),
+        ]);
+    }
+    let sides = [Side::Left, Side::Right, Side::Right, Side::Right, Side::Left];
+    format!("\n{}", aligned(&rows, &sides))
 }
 
 fn requirements(all: &[RequirementSweep]) -> String {

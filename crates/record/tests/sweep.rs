@@ -8,7 +8,7 @@ use std::io::Write;
 use std::sync::LazyLock;
 use wrasse_mission::{Mission, RunOptions, read_mission, run};
 use wrasse_record::{samples_parquet, sweep_html, sweep_json, sweep_table, write_sweep};
-use wrasse_sweep::{Sweep, SweepOutcome, sweep};
+use wrasse_sweep::{OwnedFolder, Sweep, SweepOutcome, sweep};
 
 /// Two cases, the second with a payload that floats away too fast to be grasped.
 const MISSION: &str = r#"
@@ -63,7 +63,8 @@ static FLOWN: LazyLock<(Mission, SweepOutcome)> = LazyLock::new(|| {
     let mission = read_mission("quick.toml", MISSION).expect("a sound mission");
     let place = tempfile::tempdir().unwrap();
     let asked = Sweep { mission: &mission, samples: SAMPLES, seed: SEED, threads: 2 };
-    let outcome = sweep(&asked, place.path(), &mut |_, _| {}).unwrap();
+    let folder = OwnedFolder::take(place.path()).unwrap();
+    let outcome = sweep(&asked, &folder, &mut |_, _| {}).unwrap();
     (mission, outcome)
 });
 
@@ -129,6 +130,10 @@ fn the_same_sweep_gives_the_same_bytes_and_says_what_it_is() {
     let drawn = rows(&samples_parquet(outcome).unwrap());
     let Field::Double(kg) = cell(&drawn[0], "drawn payload.module.mass_kg") else { panic!() };
     assert_eq!(*kg, outcome.cases[0].rows[0].deviations[0]);
+    let Field::Double(flown) = cell(&drawn[0], "flown payload.module.mass_kg [kg]") else {
+        panic!()
+    };
+    assert_eq!(*flown, 200.0 + kg);
 }
 
 #[test]
@@ -158,7 +163,12 @@ fn tables_and_summary_say_how_many_pass_and_how_sure_that_is() {
     assert!(table.contains(&format!("{} of 12 (", still.passed.passed)), "{table}");
     assert!(table.contains("with 95 % confidence") && table.contains("seed 5"), "{table}");
     assert!(table.contains("(stopped); the first, sample"), "{table}");
+    assert!(table.contains("payload.module.mass_kg") && table.contains("flown from"), "{table}");
+    let html = sweep_html(outcome);
+    assert!(html.contains("Flown from") && html.contains("Flown with"));
     let json = sweep_json(outcome);
+    assert_eq!(json["cases"][0]["drawn"][0]["nominal"], 200.0);
+    assert!(json["cases"][0]["requirements"][0]["worst"][0]["drawn"][0]["flown"].is_f64());
     assert_eq!(json["cases"][0]["passed"]["passed"], still.passed.passed);
     assert!(json["cases"][0]["requirements"][0]["values"]["p95"].is_f64());
     let place = tempfile::tempdir().unwrap();

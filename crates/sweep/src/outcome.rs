@@ -1,5 +1,6 @@
 //! What a sweep leaves behind. Plain data for those who record, draw or judge it.
 
+use crate::drawn::{Drawn, DrawnValue};
 use crate::pass_rate::PassRate;
 use crate::percentiles::Percentiles;
 use crate::row::Row;
@@ -40,8 +41,10 @@ pub struct CaseSweep {
     pub ends: Vec<EndCount>,
     /// Flights whose books of momentum or energy stay open.
     pub open_books: usize,
-    /// What was drawn, with units.
-    pub dispersed: Vec<String>,
+    /// Whether anything differs from sample to sample: draws that act on the case, or noise.
+    pub varies: bool,
+    /// What was drawn: the values of the files and the range that was flown.
+    pub drawn: Vec<Drawn>,
     /// Requirements in the order of the file.
     pub requirements: Vec<RequirementSweep>,
     /// Every sample, in order.
@@ -94,6 +97,8 @@ pub struct WorstSample {
     pub value: Option<f64>,
     /// What flies it again, with a full report.
     pub command: String,
+    /// What was drawn for it.
+    pub drawn: Vec<DrawnValue>,
 }
 
 /// A drawn number that a value goes with.

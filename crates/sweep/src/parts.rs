@@ -1,132 +1,173 @@
 //! What is done of a sweep, on disk: a file for each few samples, whole or not there. A sweep that was
 //! interrupted goes on from them, and a larger one begins with them.
+//!
+//! A part begins with a line that names its sweep, counts its rows and has their checksum, so each can
+//! be judged by itself.
 
+use crate::checksum::checksum;
+use crate::folder::OwnedFolder;
 use crate::row::Row;
 use crate::sweep::Sweep;
-use serde_json::{Value, json};
+use crate::sweep_error::SweepError;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::fs::{self, File};
-use std::io::{self, Write};
+use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
-
-/// Why a sweep cannot go on.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum SweepError {
-    /// The file system refused.
-    #[error("cannot {doing} {path}: {source}; choose another place with --out", path = path.display())]
-    File {
-        /// What was tried.
-        doing: &'static str,
-        /// Where.
-        path: PathBuf,
-        /// What the system said.
-        source: io::Error,
-    },
-    /// The folder holds samples of something else.
-    #[error(
-        "{folder} holds samples of another sweep: its {what} is {found}, here it is {wanted}; choose \
-         another place with --out, or remove {folder}",
-        folder = folder.display()
-    )]
-    OtherSweep {
-        /// The folder.
-        folder: PathBuf,
-        /// What is different.
-        what: &'static str,
-        /// … there.
-        found: String,
-        /// … here.
-        wanted: String,
-    },
-    /// A file in it is damaged.
-    #[error("{path} is damaged: {why}; remove it, and what it held is flown again", path = path.display())]
-    Damaged {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong with it.
-        why: String,
-    },
-}
 
 /// The samples that are done, in a folder.
 #[derive(Debug)]
-pub(crate) struct Parts {
-    folder: PathBuf,
+pub(crate) struct Parts<'f> {
+    folder: &'f OwnedFolder,
+    label: Label,
 }
 
 /// Version of the layout of the files.
-const FORMAT: u64 = 1;
+const FORMAT: u64 = 2;
 
-/// Says whose samples a folder holds.
+/// Says which sweep is flown in a folder.
 const MANIFEST: &str = "manifest.json";
 
 /// How the name of a part ends.
 const ENDING: &str = ".jsonl";
 
-impl Parts {
-    /// The folder of a sweep, made if need be.
+/// Which sweep a file belongs to.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+struct Label {
+    format: u64,
+    version: String,
+    mission: String,
+    fingerprint: String,
+    seed: u64,
+}
+
+/// The first line of a part.
+#[derive(Debug, Serialize, Deserialize)]
+struct Head {
+    #[serde(flatten)]
+    label: Label,
+    /// Rows behind it.
+    rows: usize,
+    /// Checksum of all behind this line.
+    checksum: String,
+}
+
+impl Label {
+    fn of(asked: &Sweep<'_>) -> Self {
+        Self {
+            format: FORMAT,
+            version: env!("CARGO_PKG_VERSION").into(),
+            mission: asked.mission.name.clone(),
+            fingerprint: format!("{:016x}", asked.mission.fingerprint()),
+            seed: asked.seed,
+        }
+    }
+
+    /// What is different in another one, there and here.
+    fn difference(&self, there: &Self) -> Option<(&'static str, String, String)> {
+        let each = |label: &Self| {
+            let Self { format, version, mission, fingerprint, seed } = label.clone();
+            [format.to_string(), version, mission, fingerprint, seed.to_string()]
+        };
+        let names = ["format", "version", "mission", "fingerprint", "seed"];
+        let both = names.into_iter().zip(each(there).into_iter().zip(each(self)));
+        both.map(|(name, (there, here))| (name, there, here)).find(|(_, there, here)| there != here)
+    }
+}
+
+impl<'f> Parts<'f> {
+    /// The samples in the folder of a sweep.
     ///
     /// # Errors
     /// A folder that cannot be used, or that holds samples of another sweep.
-    pub(crate) fn open(folder: &Path, asked: &Sweep<'_>) -> Result<Self, SweepError> {
-        let parts = Self { folder: folder.to_owned() };
-        fs::create_dir_all(folder).map_err(|e| refused("make the folder", folder, e))?;
-        let (path, wanted) = (folder.join(MANIFEST), manifest(asked));
-        match fs::read_to_string(&path) {
-            Ok(text) => parts.compare(&path, &text, &wanted)?,
-            Err(e) if e.kind() == io::ErrorKind::NotFound => {
-                parts.put(MANIFEST, &format!("{wanted:#}\n"))?;
+    pub(crate) fn open(folder: &'f OwnedFolder, asked: &Sweep<'_>) -> Result<Self, SweepError> {
+        let parts = Self { folder, label: Label::of(asked) };
+        let path = folder.path().join(MANIFEST);
+        match read(&path) {
+            Ok(text) => {
+                let there: Label =
+                    serde_json::from_str(&text).map_err(|e| SweepError::Damaged {
+                        path: path.clone(),
+                        why: e.to_string(),
+                        then: "each part says itself which sweep it is of",
+                    })?;
+                parts.compare(&path, &there)?;
             }
-            Err(e) => return Err(refused("read", &path, e)),
+            Err(e) if e.kind() == io::ErrorKind::NotFound => {
+                let text = serde_json::to_string_pretty(&parts.label).expect("keys are strings");
+                folder.put(MANIFEST, &(text + "\n"))?;
+            }
+            Err(e) => return Err(unreadable(&path, e)),
         }
         Ok(parts)
     }
 
-    fn compare(&self, path: &Path, text: &str, wanted: &Value) -> Result<(), SweepError> {
-        let there: Value = serde_json::from_str(text).map_err(|e| damaged(path, e.to_string()))?;
-        for what in ["format", "version", "mission", "fingerprint", "seed"] {
-            if there[what] != wanted[what] {
-                return Err(SweepError::OtherSweep {
-                    folder: self.folder.clone(),
-                    what,
-                    found: there[what].to_string(),
-                    wanted: wanted[what].to_string(),
-                });
-            }
-        }
-        Ok(())
+    /// A file must be of this sweep.
+    fn compare(&self, path: &Path, there: &Label) -> Result<(), SweepError> {
+        let Some((what, found, wanted)) = self.label.difference(there) else { return Ok(()) };
+        let (path, folder) = (path.to_owned(), self.folder.path().to_owned());
+        Err(SweepError::OtherSweep { path, folder, what, found, wanted })
     }
 
     /// All rows that are there, by case and sample.
     ///
     /// # Errors
-    /// A part that cannot be read.
+    /// A part that is damaged, or of another sweep.
     pub(crate) fn rows(
         &self,
         asked: &Sweep<'_>,
     ) -> Result<BTreeMap<(usize, u64), Row>, SweepError> {
-        let entries = fs::read_dir(&self.folder).map_err(|e| refused("read", &self.folder, e))?;
+        let folder = self.folder.path();
+        let entries = fs::read_dir(folder).map_err(|e| unreadable(folder, e))?;
         let mut rows = BTreeMap::new();
+        let mut paths: Vec<PathBuf> = vec![];
         for entry in entries {
-            let path = entry.map_err(|e| refused("read", &self.folder, e))?.path();
-            let is_part = path.file_name().and_then(|n| n.to_str()).is_some_and(|name| {
+            paths.push(entry.map_err(|e| unreadable(folder, e))?.path());
+        }
+        paths.retain(|path| {
+            path.file_name().and_then(|n| n.to_str()).is_some_and(|name| {
                 // What a killed writer left begins with a dot.
                 name.ends_with(ENDING) && !name.starts_with('.')
-            });
-            if !is_part {
-                continue;
-            }
-            let text = fs::read_to_string(&path).map_err(|e| refused("read", &path, e))?;
-            for line in text.lines() {
-                let row: Row =
-                    serde_json::from_str(line).map_err(|e| damaged(&path, e.to_string()))?;
-                if !row.fits(asked.mission) {
-                    let why = format!("sample {} has other columns than this mission", row.sample);
-                    return Err(damaged(&path, why));
-                }
+            })
+        });
+        // Of several that are wrong the first is told, and it is always the same one.
+        paths.sort();
+        for path in paths {
+            let text = read(&path).map_err(|e| unreadable(&path, e))?;
+            for row in self.rows_of(&path, &text, asked)? {
                 rows.insert((row.case, row.sample), row);
             }
+        }
+        Ok(rows)
+    }
+
+    /// The rows of one part.
+    fn rows_of(&self, path: &Path, text: &str, asked: &Sweep<'_>) -> Result<Vec<Row>, SweepError> {
+        let damaged = |why: String| SweepError::Damaged {
+            path: path.to_owned(),
+            why,
+            then: "what it held is flown again",
+        };
+        let (first, behind) = text.split_once('\n').unwrap_or((text, ""));
+        let head: Head = serde_json::from_str(first)
+            .map_err(|e| damaged(format!("its first line does not say what it is ({e})")))?;
+        self.compare(path, &head.label)?;
+        if head.checksum != format!("{:016x}", checksum(behind)) {
+            let lines = behind.lines().count();
+            let why = format!(
+                "its checksum is not that of its {lines} lines ({} were written)",
+                head.rows
+            );
+            return Err(damaged(why));
+        }
+        let mut rows = vec![];
+        for line in behind.lines() {
+            let row: Row = serde_json::from_str(line).map_err(|e| damaged(e.to_string()))?;
+            if !row.fits(asked.mission) {
+                let why = format!("sample {} has other columns than this mission", row.sample);
+                return Err(damaged(why));
+            }
+            rows.push(row);
         }
         Ok(rows)
     }
@@ -137,43 +178,24 @@ impl Parts {
     /// A disk that does not take them.
     pub(crate) fn keep(&self, rows: &[Row]) -> Result<(), SweepError> {
         let (Some(first), Some(last)) = (rows.first(), rows.last()) else { return Ok(()) };
-        let mut text = String::new();
+        let mut behind = String::new();
         for row in rows {
-            text += &serde_json::to_string(row).expect("a row has string keys only");
-            text.push('\n');
+            behind += &serde_json::to_string(row).expect("a row has string keys only");
+            behind.push('\n');
         }
+        let checksum = format!("{:016x}", checksum(&behind));
+        let head = Head { label: self.label.clone(), rows: rows.len(), checksum };
+        let head = serde_json::to_string(&head).expect("a head has string keys only");
         let name = format!("case-{}-{:09}-{:09}{ENDING}", first.case, first.sample, last.sample);
-        self.put(&name, &text)
-    }
-
-    /// A file under its name once it is whole.
-    fn put(&self, name: &str, text: &str) -> Result<(), SweepError> {
-        let place = self.folder.join(name);
-        let staged = self.folder.join(format!(".{name}.{}", std::process::id()));
-        let write = || {
-            let mut file = File::create(&staged)?;
-            file.write_all(text.as_bytes())?;
-            file.sync_all()?;
-            fs::rename(&staged, &place)
-        };
-        write().map_err(|e| refused("write", &place, e))
+        self.folder.put(&name, &format!("{head}\n{behind}"))
     }
 }
 
-fn manifest(asked: &Sweep<'_>) -> Value {
-    json!({
-        "format": FORMAT,
-        "version": env!("CARGO_PKG_VERSION"),
-        "mission": asked.mission.name,
-        "fingerprint": format!("{:016x}", asked.mission.fingerprint()),
-        "seed": asked.seed,
-    })
+/// The text of a file; what is no text counts as damaged, not as unreadable.
+fn read(path: &Path) -> io::Result<String> {
+    Ok(String::from_utf8_lossy(&fs::read(path)?).into_owned())
 }
 
-fn refused(doing: &'static str, path: &Path, source: io::Error) -> SweepError {
-    SweepError::File { doing, path: path.to_owned(), source }
-}
-
-fn damaged(path: &Path, why: String) -> SweepError {
-    SweepError::Damaged { path: path.to_owned(), why }
+fn unreadable(path: &Path, source: io::Error) -> SweepError {
+    SweepError::File { doing: "read", path: path.to_owned(), source }
 }

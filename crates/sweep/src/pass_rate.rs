@@ -13,10 +13,11 @@ pub struct PassRate {
     pub passed: usize,
     /// Samples.
     pub of: usize,
-    /// Lower bound of the true share (–).
-    pub low: f64,
-    /// Upper bound of the true share (–).
-    pub high: f64,
+    /// Lower and upper bound of the true share (–); absent where nothing varies: samples that are all the
+    /// same flight say no more than one of them.
+    pub interval: Option<[f64; 2]>,
+    /// The share that is sure (–): the interval's lower end; the share itself where nothing is drawn.
+    pub sure: f64,
 }
 
 impl PassRate {
@@ -32,7 +33,16 @@ impl PassRate {
         let low = if passed == 0 { Ok(0.0) } else { quantile(k, n - k + 1.0, tail) };
         let high = if passed >= of { Ok(1.0) } else { quantile(k + 1.0, n - k, 1.0 - tail) };
         // Both parameters are one or more: there is such a distribution.
-        Self { passed, of, low: low.unwrap_or(0.0), high: high.unwrap_or(1.0) }
+        let (low, high) = (low.unwrap_or(0.0), high.unwrap_or(1.0));
+        Self { passed, of, interval: Some([low, high]), sure: low }
+    }
+    /// Of samples that draw something, and of which no two came out differently: a rare one might.
+    pub fn of_the_same(passed: usize, of: usize) -> Self {
+        Self { interval: None, ..Self::of(passed, of) }
+    }
+    /// Of samples that draw nothing.
+    pub fn of_one_flight(passed: usize, of: usize) -> Self {
+        Self { passed, of, interval: None, sure: passed as f64 / of as f64 }
     }
     /// Share of the samples that passed (–); NaN of none.
     pub fn share(&self) -> f64 {
@@ -67,21 +77,30 @@ mod tests {
         let mut worst: f64 = 0.0;
         for (k, n) in [(1, 2), (8, 10), (3, 50), (49, 50), (490, 500), (10, 700)] {
             let rate = PassRate::of(k, n);
-            worst = worst.max((at_least(k, n, rate.low) - 0.025).abs());
-            worst = worst.max((1.0 - at_least(k + 1, n, rate.high) - 0.025).abs());
+            let [low, high] = rate.interval.expect("it varies");
+            worst = worst.max((at_least(k, n, low) - 0.025).abs());
+            worst = worst.max((1.0 - at_least(k + 1, n, high) - 0.025).abs());
         }
         assert!(worst < 1e-12, "{worst:e}");
     }
 
     #[test]
     fn none_and_all_bound_one_side_only() {
-        let (none, all) = (PassRate::of(0, 100), PassRate::of(100, 100));
-        assert_eq!((none.low, all.high), (0.0, 1.0));
+        let bounds = |k, n| PassRate::of(k, n).interval.expect("it varies");
+        let ([none_low, none_high], [all_low, all_high]) = (bounds(0, 100), bounds(100, 100));
+        assert_eq!((none_low, all_high), (0.0, 1.0));
         // (1 - p)^100 = 0.025. Measured 9e-16 off.
         let bound = 1.0 - 0.025_f64.powf(0.01);
-        let off = [none.high - bound, all.low - 1.0 + bound].map(f64::abs);
+        let off = [none_high - bound, all_low - 1.0 + bound].map(f64::abs);
         assert!(off.iter().all(|x| *x < 1e-13), "{off:?}");
-        let nothing = PassRate::of(0, 0);
-        assert_eq!((nothing.low, nothing.high), (0.0, 1.0));
+        assert_eq!(bounds(0, 0), [0.0, 1.0]);
+    }
+
+    #[test]
+    fn samples_that_are_all_the_same_flight_have_no_interval() {
+        let (same, one) = (PassRate::of_the_same(300, 300), PassRate::of_one_flight(300, 300));
+        assert_eq!((same.interval, one.interval, one.sure), (None, None, 1.0));
+        // (1 - p)^300 = 0.025. Measured 2e-15 off.
+        assert!((same.sure - 0.025_f64.powf(1.0 / 300.0)).abs() < 1e-12, "{}", same.sure);
     }
 }

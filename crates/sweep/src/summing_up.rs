@@ -1,5 +1,6 @@
 //! Rows to findings: percentiles, pass rates, the worst samples, what they go with.
 
+use crate::drawn::Drawn;
 use crate::outcome::{CaseSweep, EndCount, Influence, RequirementSweep, SweepOutcome, WorstSample};
 use crate::pass_rate::{CONFIDENCE, PassRate};
 use crate::percentiles::Percentiles;
@@ -41,18 +42,39 @@ pub(crate) fn sum_up(asked: &Sweep<'_>, rows: Vec<Row>) -> SweepOutcome {
 
 fn of_case(asked: &Sweep<'_>, case: usize, rows: Vec<Row>) -> CaseSweep {
     let mission = asked.mission;
-    let dispersed: Vec<String> = mission.dispersed(case).into_iter().map(str::to_owned).collect();
+    let drawn = Drawn::all(mission, case, &rows);
+    let draws = mission.varies(case);
+    // Without requirements nothing is looked at that could differ.
+    let looks = mission.requirement_count(case) > 0;
+    let varies = !(looks && all_alike(&rows, |row| (&row.values, &row.end)));
     let required = mission.required(case);
     let each = required.into_iter().enumerate();
     CaseSweep {
         labels: mission.case_labels(case).to_vec(),
-        passed: PassRate::of(rows.iter().filter(|row| row.passed).count(), rows.len()),
+        passed: rate(rows.iter().filter(|row| row.passed).count(), rows.len(), draws, varies),
         ends: ends(&rows),
         open_books: rows.iter().filter(|row| !row.closes).count(),
-        requirements: each.map(|(i, v)| of_requirement(asked, &rows, i, v, &dispersed)).collect(),
-        dispersed,
+        requirements: each
+            .map(|(i, v)| of_requirement(asked, &rows, i, v, &drawn, draws))
+            .collect(),
+        varies: draws && varies,
+        drawn,
         rows,
     }
+}
+
+/// A pass rate, with its interval where the samples differ.
+fn rate(passed: usize, of: usize, draws: bool, varies: bool) -> PassRate {
+    match (draws, varies) {
+        (false, _) => PassRate::of_one_flight(passed, of),
+        (true, false) => PassRate::of_the_same(passed, of),
+        (true, true) => PassRate::of(passed, of),
+    }
+}
+
+/// Whether several samples were flown, and this is the same in each of them.
+fn all_alike<'r, T: PartialEq>(rows: &'r [Row], of: impl Fn(&'r Row) -> T) -> bool {
+    rows.len() > 1 && rows.windows(2).all(|pair| of(&pair[0]) == of(&pair[1]))
 }
 
 /// How the flights ended, in the order in which the ways are first met.
@@ -78,12 +100,14 @@ fn of_requirement(
     rows: &[Row],
     i: usize,
     required: Verdict,
-    dispersed: &[String],
+    drawn: &[Drawn],
+    draws: bool,
 ) -> RequirementSweep {
+    let varies = !all_alike(rows, |row| (row.values[i], row.holds[i]));
     let holding = rows.iter().filter(|row| row.holds[i]).count();
     let values = || rows.iter().filter_map(|row| row.values[i]);
     let mut influences: Vec<Influence> = vec![];
-    for (k, quantity) in dispersed.iter().enumerate() {
+    for (k, Drawn { quantity, .. }) in drawn.iter().enumerate() {
         let pairs: Vec<_> = rows
             .iter()
             .filter_map(|row| row.values[i].map(|value| (row.deviations[k], value)))
@@ -98,10 +122,10 @@ fn of_requirement(
     influences.sort_by(|a, b| b.rank_correlation.abs().total_cmp(&a.rank_correlation.abs()));
     influences.truncate(INFLUENCES);
     RequirementSweep {
-        holds: PassRate::of(holding, rows.len()),
+        holds: rate(holding, rows.len(), draws, varies),
         absent: rows.len() - values().count(),
         values: Percentiles::of(values()),
-        worst: worst(asked, rows, i, required.comparison.starts_with('<')),
+        worst: worst(asked, rows, i, required.comparison.starts_with('<'), drawn),
         influences,
         requirement: required.requirement,
         comparison: required.comparison,
@@ -111,7 +135,13 @@ fn of_requirement(
 }
 
 /// The samples without a value, then those with the worst.
-fn worst(asked: &Sweep<'_>, rows: &[Row], i: usize, large_is_bad: bool) -> Vec<WorstSample> {
+fn worst(
+    asked: &Sweep<'_>,
+    rows: &[Row],
+    i: usize,
+    large_is_bad: bool,
+    drawn: &[Drawn],
+) -> Vec<WorstSample> {
     let mut order: Vec<&Row> = rows.iter().collect();
     let badness = |row: &Row| match row.values[i] {
         None => f64::INFINITY,
@@ -125,6 +155,7 @@ fn worst(asked: &Sweep<'_>, rows: &[Row], i: usize, large_is_bad: bool) -> Vec<W
         sample: row.sample,
         value: row.values[i],
         command: asked.command(row.sample),
+        drawn: drawn.iter().zip(&row.deviations).map(|(d, x)| d.with(*x)).collect(),
     });
     each.collect()
 }

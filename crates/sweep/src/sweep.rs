@@ -1,14 +1,15 @@
 //! Samples flown by several threads: the same bits for any number of them.
 
+use crate::folder::OwnedFolder;
 use crate::outcome::SweepOutcome;
-use crate::parts::{Parts, SweepError};
+use crate::parts::Parts;
 use crate::row::Row;
 use crate::summing_up::sum_up;
+use crate::sweep_error::SweepError;
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc::{Sender, channel};
+use std::sync::mpsc::channel;
 use wrasse_mission::{Mission, SamplePlan, fly_sample, plan_samples};
 
 /// What a sweep is asked to do.
@@ -38,61 +39,108 @@ const CHUNK: (u64, u64) = (8, 64);
 /// Chunks for each thread, if there are samples enough: what an interruption costs is at most one of them.
 const CHUNKS: u64 = 64;
 
+/// Stack of a thread that flies (bytes): that of the main thread on most systems, so a sample finds the same
+/// room wherever it is flown. The system keeps it as addresses only until it is used.
+const STACK: usize = 8 * 1024 * 1024;
+
 /// Fly what is not yet done of a sweep, keeping in `folder` what is; `progress` is told how many flights
 /// are done, of how many.
 ///
+/// Where the system refuses a thread, those that there are fly all; where it refuses every one, this one
+/// does.
+///
 /// # Errors
-/// A folder that cannot be used, that holds samples of another sweep, or damaged ones.
+/// A mission that draws nothing; a folder that holds samples of another sweep, or damaged ones; a disk
+/// that takes no more.
 pub fn sweep(
     asked: &Sweep<'_>,
-    folder: &Path,
+    folder: &OwnedFolder,
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<SweepOutcome, SweepError> {
+    let count = asked.mission.case_count();
+    asked.check()?;
+    folder.clear_up();
     let parts = Parts::open(folder, asked)?;
     let mut rows = parts.rows(asked)?;
     rows.retain(|(_, sample), _| *sample < asked.samples);
-    let all = asked.samples * asked.mission.case_count() as u64;
+    let all = asked.samples * count as u64;
     progress(rows.len() as u64, all);
     let chunks = asked.chunks(&rows);
     let needed = |case: usize| chunks.iter().any(|chunk| chunk.case == case);
-    let cases = 0..asked.mission.case_count();
-    let plans: Vec<Option<SamplePlan<'_>>> =
-        cases.map(|case| needed(case).then(|| plan_samples(asked.mission, case))).collect();
-    let next = AtomicUsize::new(0);
-    std::thread::scope(|scope| {
-        let (tell, told) = channel();
-        for _ in 0..asked.threads.clamp(1, chunks.len().max(1)) {
-            let (tell, plans, chunks, next) = (tell.clone(), &plans, &chunks, &next);
-            scope.spawn(move || asked.fly(plans, chunks, next, &tell));
-        }
-        drop(tell);
-        for done in told {
-            parts.keep(&done)?;
-            rows.extend(done.into_iter().map(|row| ((row.case, row.sample), row)));
-            progress(rows.len() as u64, all);
-        }
+    let plans =
+        (0..count).map(|case| needed(case).then(|| plan_samples(asked.mission, case))).collect();
+    let work = Work { asked, plans, chunks, next: AtomicUsize::new(0), stack: STACK };
+    work.fly_all(&mut |done| {
+        parts.keep(&done)?;
+        rows.extend(done.into_iter().map(|row| ((row.case, row.sample), row)));
+        progress(rows.len() as u64, all);
         Ok(())
     })?;
     Ok(sum_up(asked, rows.into_values().collect()))
 }
 
-impl Sweep<'_> {
-    /// Fly chunks as long as there are any and somebody listens.
-    fn fly(
+/// What is to be flown, and how far it is.
+struct Work<'m> {
+    asked: &'m Sweep<'m>,
+    plans: Vec<Option<SamplePlan<'m>>>,
+    chunks: Vec<Chunk>,
+    /// Number of the next chunk that nobody has begun.
+    next: AtomicUsize,
+    /// Stack of each thread (bytes).
+    stack: usize,
+}
+
+impl Work<'_> {
+    /// Fly all chunks; `keep` is told of each as it is done.
+    fn fly_all(
         &self,
-        plans: &[Option<SamplePlan<'_>>],
-        chunks: &[Chunk],
-        next: &AtomicUsize,
-        tell: &Sender<Vec<Row>>,
-    ) {
-        while let Some(chunk) = chunks.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let Some(plan) = &plans[chunk.case] else { break };
-            let flown = chunk.samples.clone().map(|sample| fly_sample(plan, self.seed, sample));
-            let rows = flown.map(|outcome| Row::of(chunk.case, outcome)).collect();
-            if tell.send(rows).is_err() {
-                break;
+        keep: &mut dyn FnMut(Vec<Row>) -> Result<(), SweepError>,
+    ) -> Result<(), SweepError> {
+        std::thread::scope(|scope| {
+            let (tell, told) = channel();
+            for _ in 0..self.asked.threads.clamp(1, self.chunks.len().max(1)) {
+                let tell = tell.clone();
+                let thread = std::thread::Builder::new().stack_size(self.stack);
+                let begun = thread.spawn_scoped(scope, move || {
+                    // Nobody listens any more once a part could not be kept.
+                    while self.chunk().is_some_and(|rows| tell.send(rows).is_ok()) {}
+                });
+                if begun.is_err() {
+                    break;
+                }
             }
+            drop(tell);
+            for done in told {
+                keep(done)?;
+            }
+            // Only where no thread could be begun is there anything left.
+            while let Some(done) = self.chunk() {
+                keep(done)?;
+            }
+            Ok(())
+        })
+    }
+
+    /// Fly the next chunk, if there is one.
+    fn chunk(&self) -> Option<Vec<Row>> {
+        let chunk = self.chunks.get(self.next.fetch_add(1, Ordering::Relaxed))?;
+        let plan = self.plans[chunk.case].as_ref()?;
+        let flown = chunk.samples.clone().map(|sample| fly_sample(plan, self.asked.seed, sample));
+        Some(flown.map(|outcome| Row::of(chunk.case, outcome)).collect())
+    }
+}
+
+impl Sweep<'_> {
+    /// Whether it makes sense at all, before anything is written.
+    ///
+    /// # Errors
+    /// A mission that draws nothing in any of its cases.
+    pub fn check(&self) -> Result<(), SweepError> {
+        if (0..self.mission.case_count()).any(|case| self.mission.varies(case)) {
+            return Ok(());
         }
+        let (file, samples) = (self.mission.file.clone(), self.samples);
+        Err(SweepError::NothingDrawn { file, samples })
     }
 
     /// What is not done, in pieces of which there are enough for all threads.
@@ -127,5 +175,39 @@ impl Sweep<'_> {
             format!("'{}'", file.replace('\'', "'\\''"))
         };
         format!("wrasse run {file} --sample {sample} --seed {}", self.seed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wrasse_mission::read_mission;
+
+    /// A thread whose stack is larger than all memory is refused by any system.
+    #[cfg(target_pointer_width = "64")]
+    #[test]
+    fn where_every_thread_is_refused_this_one_flies_all_and_no_bit_is_different() {
+        let text = "name = \"q\"\nvehicle = \"atlas-class\"\nrequirements = [\"energy.max <= 1 J\"]\n\
+                    [initial]\nposture = \"sideways_300mm\"\n[world]\nbase_attitude = \"free\"\njoints = \
+                    \"torque\"\n[[phase]]\nname = \"coast\"\nhold = { duration_s = 0.1, keep = \"nothing\" }\n\
+                    [[disperse]]\nquantity = \"initial.joint_rates_deg_s\"\nsigma = 1.0\n";
+        let mission = read_mission("q.toml", text).expect("a sound mission");
+        let asked = Sweep { mission: &mission, samples: 20, seed: 5, threads: 4 };
+        let flown = |stack| {
+            let (plans, next) = (vec![Some(plan_samples(&mission, 0))], AtomicUsize::new(0));
+            let chunks = asked.chunks(&BTreeMap::new());
+            let work = Work { asked: &asked, plans, chunks, next, stack };
+            let mut rows = vec![];
+            let kept = work.fly_all(&mut |done| {
+                rows.extend(done);
+                Ok(())
+            });
+            kept.expect("nothing is in the way");
+            rows.sort_by_key(|row| row.sample);
+            rows
+        };
+        let (with, without) = (flown(STACK), flown(1 << 60));
+        assert_eq!(with.len(), 20);
+        assert_eq!(with, without);
     }
 }

@@ -1,7 +1,7 @@
 //! A sweep keeps what its samples have alone, to the bit, by however many threads they are flown.
 
 use wrasse_mission::{End, fly_sample, plan_samples, read_mission};
-use wrasse_sweep::{Sweep, sweep};
+use wrasse_sweep::{OwnedFolder, Sweep, sweep};
 
 /// Samples of which some find no way: near a singular posture the joints cannot follow so fast a line.
 const MISSION: &str = r#"
@@ -43,7 +43,9 @@ fn every_row_is_that_of_the_sample_alone_by_one_thread_and_by_two() {
     for threads in [1, 2] {
         let folder = tempfile::tempdir().expect("a folder");
         let asked = Sweep { mission: &mission, samples: 20, seed: 5, threads };
-        let outcome = sweep(&asked, folder.path(), &mut |_, _| {}).expect("it is flown");
+        let outcome =
+            sweep(&asked, &OwnedFolder::take(folder.path()).expect("a folder"), &mut |_, _| {})
+                .expect("it is flown");
         let rows = &outcome.cases[0].rows;
         assert_eq!(rows.len(), 20);
         for (row, alone) in rows.iter().zip(&alone) {

@@ -15,12 +15,14 @@ pub(crate) struct Gyros {
     list: List<ControlMomentGyro<f64>, GYROS>,
     /// Rate that each gimbal should have in this period (rad/s).
     wanted: [f64; GYROS],
+    /// Torque that each motor would need to do as it is told as the period begins (N·m).
+    motor_asked: [f64; GYROS],
     stuck: [bool; GYROS],
 }
 
 impl Gyros {
     pub(crate) fn new(list: &List<ControlMomentGyro<f64>, GYROS>) -> Self {
-        Self { list: *list, wanted: [0.0; GYROS], stuck: [false; GYROS] }
+        Self { list: *list, wanted: [0.0; GYROS], motor_asked: [0.0; GYROS], stuck: [false; GYROS] }
     }
     pub(crate) fn count(&self) -> usize {
         self.list.len()
@@ -104,6 +106,13 @@ impl Gyros {
         let servo = self.each(|i, gyro| self.servo(i, gyro, rate[i]));
         let behind = (0..self.list.len()).filter(|&i| found[i] != servo[i]);
         cut.extend(behind.map(Saturation::GimbalMotor));
+        self.motor_asked =
+            self.each(|i, gyro| gyro.gimbal_inertia * servo[i] + load(gyro, angle[i], w_NB_B));
+    }
+    /// Torque that each motor would need to do as it was told (N·m), whatever it can give, as the period
+    /// began; the base's own angular acceleration is left out.
+    pub(crate) fn motor_asked(&self) -> [f64; GYROS] {
+        self.motor_asked
     }
     /// A gimbal stands still from now on; the angular impulse that its jam gives the base at the rate
     /// that it had, base axes (N·m·s).

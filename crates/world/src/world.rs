@@ -257,6 +257,11 @@ impl<const J: usize> World<J> {
         let (acceleration, w_NB_B) = (acting.gimbal_acceleration, state.V_NB_B.angular);
         self.gyros.motor_torques(&s.gimbal_angle, &acceleration, w_NB_B, wdot_NB_B)
     }
+    /// Torque that each gimbal's motor would have needed to do as it was told as the period began (N·m),
+    /// whatever it can give.
+    pub fn gimbal_motor_asked(&self) -> [f64; GYROS] {
+        self.gyros.motor_asked()
+    }
     /// Torque of wheels and gyros on the base now (N·m, base axes).
     pub fn turning_torque_B(&self) -> Vec3<f64> {
         let (t, s) = (self.into_period, &self.system);
