@@ -9,7 +9,7 @@ use std::{env, fs};
 const TARGETS: [(&str, &[&str]); 6] = [
     ("vehicle_toml", &["vehicles", "crates/vehicle/tests/data"]),
     ("vehicle_urdf", &["validation/golden", "crates/vehicle/tests/data"]),
-    ("mission_toml", &["missions", "studies"]),
+    ("mission_toml", &["missions", "fuzz/seeds/mission_toml"]),
     ("eval_json", &["fuzz/seeds/eval_json"]),
     ("sweep_folder", &["fuzz/seeds/sweep_folder"]),
     ("c_period", &["fuzz/seeds/c_period"]),
@@ -73,8 +73,8 @@ fn fuzz_one(program: &PathBuf, target: &str, seeds: &[&str], seconds: u32) -> Re
     let time = format!("-max_total_time={seconds}");
     let mut arguments = vec!["fuzz", "run", "-s", "none", target, corpus.as_str()];
     arguments.extend(seeds);
-    // A case that takes ten seconds or two gigabytes is a finding.
-    arguments.extend(["--", &time, "-timeout=10", "-rss_limit_mb=2048", "-max_len=20000"]);
+    // A case that takes a minute or two gigabytes is a finding.
+    arguments.extend(["--", &time, "-timeout=60", "-rss_limit_mb=2048", "-max_len=20000"]);
     arguments.push("-print_final_stats=1");
     run(program, &arguments)
 }
