@@ -81,12 +81,18 @@ enum WrasseStatus
   WRASSE_TOO_MANY_LINKS = 2,
   // A link is mounted on one that does not come before it.
   WRASSE_PARENT_AFTER_CHILD = 3,
-  // A number is not finite, or not what it must be.
+  // A number of the set-up, or of what is asked, is not finite or not within its bounds.
   WRASSE_BAD_NUMBER = 4,
   // A choice is none of its constants.
   WRASSE_UNKNOWN_CHOICE = 5,
   // The memory was not set up.
   WRASSE_NOT_SET_UP = 6,
+  // A reading of the sensors is not finite, or not within its bounds.
+  WRASSE_BAD_READING = 7,
+  // What would be told is not finite, passes a limit, or makes a set-point jump.
+  WRASSE_BAD_RESULT = 8,
+  // What would be remembered is not finite.
+  WRASSE_BAD_MEMORY = 9,
 };
 #ifndef __cplusplus
 #if __STDC_VERSION__ >= 202311L
@@ -105,11 +111,12 @@ typedef struct WrasseFlight {
 
 // What a body is made of.
 typedef struct WrasseBody {
-  // Mass (kg).
+  // Mass (kg), at most 1e9; of the base at least 1e-6, of a link zero or more.
   double mass;
-  // Centre of mass, from the body's origin, body axes (m).
+  // Centre of mass, from the body's origin, body axes (m), between -1e4 and 1e4.
   double centre_of_mass[3];
-  // Inertia about the centre of mass, body axes: xx, yy, zz, xy, xz, yz (kg·m²).
+  // Inertia about the centre of mass, body axes: xx, yy, zz, xy, xz, yz (kg·m²), between -1e15 and
+  // 1e15: one that matter can have, and of the base one that resists turning about every axis.
   double inertia[6];
 } WrasseBody;
 
@@ -119,11 +126,12 @@ typedef struct WrasseJoint {
   int32_t parent;
   // 0: it turns about its axis (rad). 1: it slides along its axis (m).
   int32_t sliding;
-  // Origin of the link at zero travel, from the parent's origin, parent axes (m).
+  // Origin of the link at zero travel, from the parent's origin, parent axes (m), between -1e4 and
+  // 1e4.
   double position[3];
   // Turns link axes into parent axes at zero travel, by rows (–).
   double rotation[3][3];
-  // Its axis, link axes; made a unit vector (–).
+  // Its axis, link axes, between -1e6 and 1e6; made a unit vector (–).
   double axis[3];
 } WrasseJoint;
 
@@ -139,7 +147,7 @@ typedef struct WrasseLink {
 typedef struct WrasseFrame {
   // Number of the link that carries it; -1 for the base.
   int32_t link;
-  // Its origin, from the body's origin, body axes (m).
+  // Its origin, from the body's origin, body axes (m), between -1e4 and 1e4.
   double position[3];
   // Turns its axes into body axes, by rows (–).
   double rotation[3][3];
@@ -155,27 +163,31 @@ typedef struct WrasseLaws {
   int32_t feedforward;
   // One of `WRASSE_MEASURE_...`.
   int32_t measurement;
-  // Control period (s).
+  // Control period (s), between 1e-5 and 100.
   double period;
-  // How fast the guidance takes back a tool error (1/s).
+  // How fast the guidance takes back a tool error (1/s), between 0 and 1e5; its product with the
+  // period is below 1.
   double tool_gain;
-  // Bandwidth of the joint loops (rad/s); zero: feedforward only.
+  // Bandwidth of the joint loops (rad/s), between 0 and 1e5; zero: feedforward only. With b its
+  // product with the period and d the damping ratio, b d + b b / 4 is below 1.
   double joint_bandwidth;
-  // Damping ratio of the joint loops (–).
+  // Damping ratio of the joint loops (–), between 0 and 1e3.
   double joint_damping;
-  // Bandwidth of the attitude loop (rad/s); zero: feedforward only.
+  // Bandwidth of the attitude loop (rad/s), between 0 and 1e5; zero: feedforward only. Its product
+  // with the damping ratio and the period is below 1.
   double attitude_bandwidth;
-  // Damping ratio of the attitude loop (–).
+  // Damping ratio of the attitude loop (–), between 0 and 1e3.
   double attitude_damping;
-  // Singular value below which the inverse of the arm's Jacobian is damped (m/rad, –).
+  // Singular value below which the inverse of the arm's Jacobian is damped (m/rad, –), between 1e-9
+  // and 1e3.
   double damped_below;
   // Attitude that the base keeps: quaternion w, x, y, z from base axes to inertial axes (–).
   double kept_attitude[4];
-  // Posture towards which the freedom that the task leaves is used (rad or m).
+  // Posture towards which the freedom that the task leaves is used (rad or m), between -1e6 and 1e6.
   double posture[WRASSE_JOINTS];
-  // Largest rate of each joint (rad/s or m/s).
+  // Largest rate of each joint (rad/s or m/s), between 1e-9 and 100.
   double rate_limit[WRASSE_JOINTS];
-  // Largest torque or force of each joint (N·m or N); zero for none.
+  // Largest torque or force of each joint (N·m or N), between 1e-9 and 1e9; zero for none.
   double effort_limit[WRASSE_JOINTS];
 } WrasseLaws;
 
@@ -191,23 +203,25 @@ typedef struct WrasseComplaint {
   const char *expected;
 } WrasseComplaint;
 
-// What the sensors say at the start of a period.
+// What the sensors say at the start of a period. A number beyond its bounds is refused; elements of
+// joints that the robot does not have are not read.
 typedef struct WrasseSensed {
-  // Attitude of the base: quaternion w, x, y, z from base axes to inertial axes (–).
+  // Attitude of the base: quaternion w, x, y, z from base axes to inertial axes (–), its squares
+  // summing to 1 within 1e-5.
   double attitude[4];
-  // Origin of the base, inertial axes (m).
+  // Origin of the base, inertial axes (m), between -1e6 and 1e6.
   double position[3];
-  // Rate of the base, base axes (rad/s).
+  // Rate of the base, base axes (rad/s), between -10 and 10.
   double angular_velocity[3];
-  // Velocity of the base's origin, base axes (m/s).
+  // Velocity of the base's origin, base axes (m/s), between -100 and 100.
   double velocity[3];
-  // Joint positions (rad or m).
+  // Joint positions (rad or m), between -1e6 and 1e6.
   double joint_position[WRASSE_JOINTS];
-  // Joint rates (rad/s or m/s).
+  // Joint rates (rad/s or m/s), between -100 and 100.
   double joint_rate[WRASSE_JOINTS];
   // 1 if a push at the tool is felt, 0 if not.
   int32_t wrench_felt;
-  // That push at the tool's origin, tool axes: torque (N·m), then force (N).
+  // That push at the tool's origin, tool axes: torque (N·m), then force (N), between -1e6 and 1e6.
   double wrench[6];
 } WrasseSensed;
 
@@ -217,23 +231,25 @@ typedef struct WrasseAsked {
   int32_t kind;
   // One of `WRASSE_AXES_...`; for the tool.
   int32_t axes;
-  // Where the tool should be (m).
+  // Where the tool should be (m), between -1e6 and 1e6.
   double tool_position[3];
-  // How it should be turned: quaternion w, x, y, z from tool axes to the axes of the motion (–).
+  // How it should be turned: quaternion w, x, y, z from tool axes to the axes of the motion (–),
+  // its squares summing to 1 within 1e-5.
   double tool_attitude[4];
-  // Its velocity: angular (rad/s), then linear (m/s).
+  // Its velocity: angular (rad/s), between -10 and 10, then linear (m/s), between -100 and 100.
   double tool_velocity[6];
-  // Time derivative of that (rad/s², m/s²).
+  // Time derivative of that (rad/s², m/s²), between -100 and 100.
   double tool_acceleration[6];
-  // Drift towards the posture of the laws (1/s); zero for joint rates of least norm.
+  // Drift towards the posture of the laws (1/s), between -10 and 10; zero for joint rates of
+  // least norm.
   double posture_gain;
-  // How fast that gain changes (1/s²).
+  // How fast that gain changes (1/s²), between -100 and 100.
   double posture_gain_rate;
-  // Where the joints should be (rad or m).
+  // Where the joints should be (rad or m), between -1e6 and 1e6.
   double joint_position[WRASSE_JOINTS];
-  // Their rates (rad/s or m/s).
+  // Their rates (rad/s or m/s), between -100 and 100.
   double joint_rate[WRASSE_JOINTS];
-  // Their accelerations (rad/s² or m/s²).
+  // Their accelerations (rad/s² or m/s²), between -1e4 and 1e4.
   double joint_acceleration[WRASSE_JOINTS];
 } WrasseAsked;
 
@@ -271,8 +287,13 @@ WrasseStatus wrasse_flight_set_up(struct WrasseFlight *flight,
                                   struct WrasseComplaint *complaint);
 
 // One control period: what is sensed and asked goes in, what the actuators are told comes out. The
-// first period after the set-up takes everything from what is sensed. When the status is not
-// `WRASSE_OK` nothing has changed, neither the memory nor `told`.
+// first period after the set-up takes everything from what is sensed.
+//
+// Readings and what is asked are held against the bounds that stand at their fields; what would be told
+// and remembered must be finite. When the status is not `WRASSE_OK` the memory is as it was, to the
+// byte, so that later periods are those of a flight without this one; `told` has no torque and no
+// force, its rates and accelerations are zero, and its positions are those that were told last (zero
+// before the first period).
 //
 // # Safety
 // Each pointer is null or points to as much as its type says; `flight` to memory that

@@ -5,6 +5,7 @@ mod bench;
 mod chores;
 mod counts;
 mod embedded;
+mod fuzz;
 mod tidy;
 
 use std::env;
@@ -26,6 +27,9 @@ usage: cargo xtask CHORE
                 the control period on a flight processor's instruction set, in an emulator:
                 no panic, same bits as the host, instructions, stack; without the tools it is
                 skipped, with --require it fails
+  fuzz [--require] [--seconds N] [TARGET]
+                arbitrary bytes into every reader, or into one, for N seconds each (15);
+                without cargo-fuzz it is skipped, with --require it fails
   ci            formatting, lints, documentation, then all tests: what a change must pass";
 
 fn main() -> ExitCode {
@@ -40,6 +44,7 @@ fn main() -> ExitCode {
         "tidy" => tidy::report(),
         "counts" => counts::counts(rest),
         "embedded" => embedded::embedded(rest),
+        "fuzz" => fuzz::fuzz(rest),
         "ci" => chores::ci(),
         _ => Err(USAGE.to_owned()),
     };

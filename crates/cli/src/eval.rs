@@ -153,7 +153,7 @@ fn holds_null(value: &Value) -> bool {
 }
 
 /// The frame and the states that a file asks about.
-fn questions(
+pub(crate) fn questions(
     path: &Path,
     text: String,
     vehicle: &Vehicle,

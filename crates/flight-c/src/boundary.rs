@@ -3,6 +3,7 @@
 #![allow(unsafe_code, reason = "C passes pointers; each is checked for null and used only here")]
 
 use crate::complaint::{ONLY, Refused, WrasseComplaint, WrasseStatus, refused};
+use crate::fault::refusal;
 use crate::laws_table::WrasseLaws;
 use crate::period_data::{WrasseAsked, WrasseSensed, WrasseTold};
 use crate::robot_table::{
@@ -11,7 +12,7 @@ use crate::robot_table::{
 use core::ffi::{CStr, c_char};
 use core::slice;
 use wrasse_dynamics::Robot;
-use wrasse_flight::{PeriodMemory, Setup, control_period};
+use wrasse_flight::{PeriodMemory, Setup, checked_period};
 
 /// Words of eight bytes of a [`WrasseFlight`].
 pub const WRASSE_FLIGHT_WORDS: usize = 2048;
@@ -72,8 +73,13 @@ pub unsafe extern "C" fn wrasse_flight_set_up(
 }
 
 /// One control period: what is sensed and asked goes in, what the actuators are told comes out. The
-/// first period after the set-up takes everything from what is sensed. When the status is not
-/// `WRASSE_OK` nothing has changed, neither the memory nor `told`.
+/// first period after the set-up takes everything from what is sensed.
+///
+/// Readings and what is asked are held against the bounds that stand at their fields; what would be told
+/// and remembered must be finite. When the status is not `WRASSE_OK` the memory is as it was, to the
+/// byte, so that later periods are those of a flight without this one; `told` has no torque and no
+/// force, its rates and accelerations are zero, and its positions are those that were told last (zero
+/// before the first period).
 ///
 /// # Safety
 /// Each pointer is null or points to as much as its type says; `flight` to memory that
@@ -87,25 +93,30 @@ pub unsafe extern "C" fn wrasse_flight_period(
     complaint: *mut WrasseComplaint,
 ) -> WrasseStatus {
     // SAFETY: by this function's own condition; null is turned into nothing.
-    let pointers = unsafe { (sensed.as_ref(), asked.as_ref(), told.as_mut()) };
-    let result = match pointers {
-        (Some(sensed), Some(asked), Some(told)) if !flight.is_null() => {
-            // SAFETY: it is not null; the mark is the first word by its offset below.
-            match unsafe { set_up_flight(flight) } {
-                Some(flight) => period(flight, sensed, asked).map(|new| *told = new),
-                None => Err(refused(
-                    WrasseStatus::WRASSE_NOT_SET_UP,
-                    c"flight",
-                    ONLY,
-                    0.0,
-                    c"memory that wrasse_flight_set_up wrote",
-                )),
-            }
-        }
+    let (sensed, asked, told) = unsafe { (sensed.as_ref(), asked.as_ref(), told.as_mut()) };
+    // SAFETY: by this function's own condition.
+    let mut known = if flight.is_null() { None } else { unsafe { set_up_flight(flight) } };
+    let mut safe = WrasseTold::default();
+    if let Some(flight) = &known {
+        safe = WrasseTold::from_told(&flight.memory.nothing_told());
+    }
+    let result = match (&mut known, sensed, asked, &told) {
+        _ if flight.is_null() => Err(null(c"flight, sensed, asked or told")),
+        (Some(flight), Some(sensed), Some(asked), Some(_)) => period(flight, sensed, asked),
+        (None, Some(_), Some(_), Some(_)) => Err(refused(
+            WrasseStatus::WRASSE_NOT_SET_UP,
+            c"flight",
+            ONLY,
+            0.0,
+            c"memory that wrasse_flight_set_up wrote",
+        )),
         _ => Err(null(c"flight, sensed, asked or told")),
     };
+    if let Some(told) = told {
+        *told = result.unwrap_or(safe);
+    }
     // SAFETY: by this function's own condition.
-    unsafe { answer(result, complaint) }
+    unsafe { answer(result.map(|_| ()), complaint) }
 }
 
 /// What a status means, in English. Never null.
@@ -116,9 +127,12 @@ pub extern "C" fn wrasse_status_text(status: i32) -> *const c_char {
         1 => c"a pointer that must point to something is null",
         2 => c"there are more links than WRASSE_JOINTS",
         3 => c"a link is mounted on one that does not come before it",
-        4 => c"a number is not finite, or not what it must be",
+        4 => c"a number of the set-up or of what is asked is not finite or not within its bounds",
         5 => c"a choice is none of its constants",
         6 => c"the memory was not set up",
+        7 => c"a reading is not finite or not within its bounds",
+        8 => c"what would be told is not finite, passes a limit or jumps",
+        9 => c"what would be remembered is not finite",
         _ => c"no status has this number",
     };
     text.as_ptr()
@@ -176,8 +190,8 @@ fn period(
     let links = robot.joint_count();
     let (state, push) = sensed.read(links)?;
     let asked = asked.read(links)?;
-    let told = control_period(robot, setup, memory, &state, &asked, push.as_ref());
-    Ok(WrasseTold::from_told(&told))
+    let told = checked_period(robot, setup, memory, &state, &asked, push.as_ref());
+    told.map(|told| WrasseTold::from_told(&told)).map_err(refusal)
 }
 
 fn null(field: &'static CStr) -> Refused {

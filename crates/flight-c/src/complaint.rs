@@ -15,12 +15,18 @@ pub enum WrasseStatus {
     WRASSE_TOO_MANY_LINKS = 2,
     /// A link is mounted on one that does not come before it.
     WRASSE_PARENT_AFTER_CHILD = 3,
-    /// A number is not finite, or not what it must be.
+    /// A number of the set-up, or of what is asked, is not finite or not within its bounds.
     WRASSE_BAD_NUMBER = 4,
     /// A choice is none of its constants.
     WRASSE_UNKNOWN_CHOICE = 5,
     /// The memory was not set up.
     WRASSE_NOT_SET_UP = 6,
+    /// A reading of the sensors is not finite, or not within its bounds.
+    WRASSE_BAD_READING = 7,
+    /// What would be told is not finite, passes a limit, or makes a set-point jump.
+    WRASSE_BAD_RESULT = 8,
+    /// What would be remembered is not finite.
+    WRASSE_BAD_MEMORY = 9,
 }
 
 /// What is wrong, where, what was found and what was expected.
@@ -55,6 +61,14 @@ impl Refused {
     /// The same about the link of this number.
     pub(crate) fn of(mut self, link: usize) -> Self {
         self.complaint.index = i32::try_from(link).unwrap_or(-1);
+        self
+    }
+
+    /// The same about a reading.
+    pub(crate) fn of_reading(mut self) -> Self {
+        if self.status == WrasseStatus::WRASSE_BAD_NUMBER {
+            self.status = WrasseStatus::WRASSE_BAD_READING;
+        }
         self
     }
 }

@@ -1,6 +1,6 @@
 //! The laws and their numbers, as C knows them.
 
-use crate::complaint::{Refused, choice, each, finite, unit};
+use crate::complaint::{Refused, choice, each, unit};
 use crate::robot_table::WRASSE_JOINTS;
 use wrasse_dynamics::Frame;
 use wrasse_flight::{
@@ -44,45 +44,90 @@ pub struct WrasseLaws {
     pub feedforward: i32,
     /// One of `WRASSE_MEASURE_...`.
     pub measurement: i32,
-    /// Control period (s).
+    /// Control period (s), between 1e-5 and 100.
     pub period: f64,
-    /// How fast the guidance takes back a tool error (1/s).
+    /// How fast the guidance takes back a tool error (1/s), between 0 and 1e5; its product with the
+    /// period is below 1.
     pub tool_gain: f64,
-    /// Bandwidth of the joint loops (rad/s); zero: feedforward only.
+    /// Bandwidth of the joint loops (rad/s), between 0 and 1e5; zero: feedforward only. With b its
+    /// product with the period and d the damping ratio, b d + b b / 4 is below 1.
     pub joint_bandwidth: f64,
-    /// Damping ratio of the joint loops (–).
+    /// Damping ratio of the joint loops (–), between 0 and 1e3.
     pub joint_damping: f64,
-    /// Bandwidth of the attitude loop (rad/s); zero: feedforward only.
+    /// Bandwidth of the attitude loop (rad/s), between 0 and 1e5; zero: feedforward only. Its product
+    /// with the damping ratio and the period is below 1.
     pub attitude_bandwidth: f64,
-    /// Damping ratio of the attitude loop (–).
+    /// Damping ratio of the attitude loop (–), between 0 and 1e3.
     pub attitude_damping: f64,
-    /// Singular value below which the inverse of the arm's Jacobian is damped (m/rad, –).
+    /// Singular value below which the inverse of the arm's Jacobian is damped (m/rad, –), between 1e-9
+    /// and 1e3.
     pub damped_below: f64,
     /// Attitude that the base keeps: quaternion w, x, y, z from base axes to inertial axes (–).
     pub kept_attitude: [f64; 4],
-    /// Posture towards which the freedom that the task leaves is used (rad or m).
+    /// Posture towards which the freedom that the task leaves is used (rad or m), between -1e6 and 1e6.
     pub posture: [f64; WRASSE_JOINTS],
-    /// Largest rate of each joint (rad/s or m/s).
+    /// Largest rate of each joint (rad/s or m/s), between 1e-9 and 100.
     pub rate_limit: [f64; WRASSE_JOINTS],
-    /// Largest torque or force of each joint (N·m or N); zero for none.
+    /// Largest torque or force of each joint (N·m or N), between 1e-9 and 1e9; zero for none.
     pub effort_limit: [f64; WRASSE_JOINTS],
 }
 
 impl WrasseLaws {
     fn check(&self, links: usize) -> Result<(), Refused> {
-        let (positive, not_negative) = (|x: f64| x > 0.0, |x: f64| x >= 0.0);
-        let (above, from) = (c"a number above zero", c"zero or more");
-        each(c"WrasseLaws.period", &[self.period], above, positive)?;
-        each(c"WrasseLaws.damped_below", &[self.damped_below], above, positive)?;
-        each(c"WrasseLaws.tool_gain", &[self.tool_gain], from, not_negative)?;
-        each(c"WrasseLaws.joint_bandwidth", &[self.joint_bandwidth], from, not_negative)?;
-        each(c"WrasseLaws.joint_damping", &[self.joint_damping], from, not_negative)?;
-        each(c"WrasseLaws.attitude_bandwidth", &[self.attitude_bandwidth], from, not_negative)?;
-        each(c"WrasseLaws.attitude_damping", &[self.attitude_damping], from, not_negative)?;
+        let damping = |x: f64| (0.0..=1e3).contains(&x);
+        let from = c"between 0 and 1e3";
+        let (period, bandwidth) = (self.period, c"between 0 and 1e5");
+        let fast = |x: f64| (0.0..=1e5).contains(&x);
+        each(c"WrasseLaws.period", &[period], c"between 1e-5 and 100", |x| {
+            (1e-5..=100.0).contains(&x)
+        })?;
+        each(c"WrasseLaws.damped_below", &[self.damped_below], c"between 1e-9 and 1e3", |x| {
+            (1e-9..=1e3).contains(&x)
+        })?;
+        each(c"WrasseLaws.tool_gain", &[self.tool_gain], bandwidth, fast)?;
+        each(c"WrasseLaws.joint_bandwidth", &[self.joint_bandwidth], bandwidth, fast)?;
+        each(c"WrasseLaws.joint_damping", &[self.joint_damping], from, damping)?;
+        each(c"WrasseLaws.attitude_bandwidth", &[self.attitude_bandwidth], bandwidth, fast)?;
+        each(c"WrasseLaws.attitude_damping", &[self.attitude_damping], from, damping)?;
+        self.check_rates()?;
         unit(c"WrasseLaws.kept_attitude", &self.kept_attitude)?;
-        finite(c"WrasseLaws.posture", first(&self.posture, links))?;
-        each(c"WrasseLaws.rate_limit", first(&self.rate_limit, links), above, positive)?;
-        each(c"WrasseLaws.effort_limit", first(&self.effort_limit, links), from, not_negative)
+        each(c"WrasseLaws.posture", first(&self.posture, links), c"between -1e6 and 1e6", |x| {
+            x.abs() <= 1e6
+        })?;
+        let rates = first(&self.rate_limit, links);
+        each(c"WrasseLaws.rate_limit", rates, c"between 1e-9 and 100", |x| {
+            (1e-9..=100.0).contains(&x)
+        })?;
+        let efforts = first(&self.effort_limit, links);
+        each(c"WrasseLaws.effort_limit", efforts, c"zero, or between 1e-9 and 1e9", |x| {
+            x == 0.0 || (1e-9..=1e9).contains(&x)
+        })
+    }
+
+    /// No loop is faster than its period allows: beyond these bounds an error grows from one period to
+    /// the next, even of a single body.
+    fn check_rates(&self) -> Result<(), Refused> {
+        let h = self.period;
+        each(
+            c"WrasseLaws.tool_gain, times period",
+            &[self.tool_gain * h],
+            c"below 1: a lower gain or a shorter period",
+            |x| x < 1.0,
+        )?;
+        // The torque looks half a period ahead, which shifts the bound by the second term.
+        let joints = self.joint_bandwidth * h;
+        each(
+            c"WrasseLaws.joint_bandwidth: b d + b b / 4, with b = it times period, d = joint_damping",
+            &[joints * self.joint_damping + joints * joints / 4.0],
+            c"below 1: a lower bandwidth or a shorter period",
+            |x| x < 1.0,
+        )?;
+        each(
+            c"WrasseLaws.attitude_bandwidth, times attitude_damping and period",
+            &[self.attitude_bandwidth * self.attitude_damping * h],
+            c"below 1: a lower bandwidth or a shorter period",
+            |x| x < 1.0,
+        )
     }
 
     /// The set-up of the flight crate for a robot of so many links.

@@ -9,6 +9,7 @@
 
 mod boundary;
 mod complaint;
+mod fault;
 mod laws_table;
 #[cfg(feature = "panic-handler")]
 mod panic_handler;

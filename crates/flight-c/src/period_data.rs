@@ -1,7 +1,6 @@
 //! What goes into a control period and what comes out, as C knows it.
 
-use crate::complaint::{ONLY, Refused, WrasseStatus, choice, finite, refused, unit};
-use crate::laws_table::first;
+use crate::complaint::{ONLY, Refused, WrasseStatus, choice, refused, unit};
 use crate::robot_table::{WRASSE_JOINTS, vector};
 use wrasse_dynamics::State;
 use wrasse_flight::trajectory::{JointSetPoint, ToolMotion};
@@ -22,25 +21,27 @@ pub const WRASSE_AXES_INERTIAL: i32 = 0;
 /// The tool's motion is relative to the base, in its axes.
 pub const WRASSE_AXES_BASE: i32 = 1;
 
-/// What the sensors say at the start of a period.
+/// What the sensors say at the start of a period. A number beyond its bounds is refused; elements of
+/// joints that the robot does not have are not read.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WrasseSensed {
-    /// Attitude of the base: quaternion w, x, y, z from base axes to inertial axes (–).
+    /// Attitude of the base: quaternion w, x, y, z from base axes to inertial axes (–), its squares
+    /// summing to 1 within 1e-5.
     pub attitude: [f64; 4],
-    /// Origin of the base, inertial axes (m).
+    /// Origin of the base, inertial axes (m), between -1e6 and 1e6.
     pub position: [f64; 3],
-    /// Rate of the base, base axes (rad/s).
+    /// Rate of the base, base axes (rad/s), between -10 and 10.
     pub angular_velocity: [f64; 3],
-    /// Velocity of the base's origin, base axes (m/s).
+    /// Velocity of the base's origin, base axes (m/s), between -100 and 100.
     pub velocity: [f64; 3],
-    /// Joint positions (rad or m).
+    /// Joint positions (rad or m), between -1e6 and 1e6.
     pub joint_position: [f64; WRASSE_JOINTS],
-    /// Joint rates (rad/s or m/s).
+    /// Joint rates (rad/s or m/s), between -100 and 100.
     pub joint_rate: [f64; WRASSE_JOINTS],
     /// 1 if a push at the tool is felt, 0 if not.
     pub wrench_felt: i32,
-    /// That push at the tool's origin, tool axes: torque (N·m), then force (N).
+    /// That push at the tool's origin, tool axes: torque (N·m), then force (N), between -1e6 and 1e6.
     pub wrench: [f64; 6],
 }
 
@@ -52,23 +53,25 @@ pub struct WrasseAsked {
     pub kind: i32,
     /// One of `WRASSE_AXES_...`; for the tool.
     pub axes: i32,
-    /// Where the tool should be (m).
+    /// Where the tool should be (m), between -1e6 and 1e6.
     pub tool_position: [f64; 3],
-    /// How it should be turned: quaternion w, x, y, z from tool axes to the axes of the motion (–).
+    /// How it should be turned: quaternion w, x, y, z from tool axes to the axes of the motion (–),
+    /// its squares summing to 1 within 1e-5.
     pub tool_attitude: [f64; 4],
-    /// Its velocity: angular (rad/s), then linear (m/s).
+    /// Its velocity: angular (rad/s), between -10 and 10, then linear (m/s), between -100 and 100.
     pub tool_velocity: [f64; 6],
-    /// Time derivative of that (rad/s², m/s²).
+    /// Time derivative of that (rad/s², m/s²), between -100 and 100.
     pub tool_acceleration: [f64; 6],
-    /// Drift towards the posture of the laws (1/s); zero for joint rates of least norm.
+    /// Drift towards the posture of the laws (1/s), between -10 and 10; zero for joint rates of
+    /// least norm.
     pub posture_gain: f64,
-    /// How fast that gain changes (1/s²).
+    /// How fast that gain changes (1/s²), between -100 and 100.
     pub posture_gain_rate: f64,
-    /// Where the joints should be (rad or m).
+    /// Where the joints should be (rad or m), between -1e6 and 1e6.
     pub joint_position: [f64; WRASSE_JOINTS],
-    /// Their rates (rad/s or m/s).
+    /// Their rates (rad/s or m/s), between -100 and 100.
     pub joint_rate: [f64; WRASSE_JOINTS],
-    /// Their accelerations (rad/s² or m/s²).
+    /// Their accelerations (rad/s² or m/s²), between -1e4 and 1e4.
     pub joint_acceleration: [f64; WRASSE_JOINTS],
 }
 
@@ -107,21 +110,14 @@ fn joints(all: &[f64; WRASSE_JOINTS], links: usize) -> [f64; WRASSE_JOINTS] {
 }
 
 impl WrasseSensed {
-    /// The state of a robot of so many links, and the push at its tool.
+    /// The state of a robot of so many links, and the push at its tool. The period holds its numbers
+    /// against their bounds.
     pub(crate) fn read(
         &self,
         links: usize,
     ) -> Result<(State<f64, WRASSE_JOINTS>, Option<SpatialForce<f64>>), Refused> {
-        unit(c"WrasseSensed.attitude", &self.attitude)?;
-        finite(c"WrasseSensed.position", &self.position)?;
-        finite(c"WrasseSensed.angular_velocity", &self.angular_velocity)?;
-        finite(c"WrasseSensed.velocity", &self.velocity)?;
-        finite(c"WrasseSensed.joint_position", first(&self.joint_position, links))?;
-        finite(c"WrasseSensed.joint_rate", first(&self.joint_rate, links))?;
+        unit(c"WrasseSensed.attitude", &self.attitude).map_err(Refused::of_reading)?;
         let felt = choice(c"WrasseSensed.wrench_felt", self.wrench_felt, [false, true])?;
-        if felt {
-            finite(c"WrasseSensed.wrench", &self.wrench)?;
-        }
         let state = State {
             X_NB: rotated(self.attitude, self.position),
             V_NB_B: SpatialVelocity::new(vector(self.angular_velocity), vector(self.velocity)),
@@ -135,20 +131,15 @@ impl WrasseSensed {
 }
 
 impl WrasseAsked {
-    /// What is asked of a robot of so many links.
+    /// What is asked of a robot of so many links. The period holds its numbers against their bounds.
     pub(crate) fn read(&self, links: usize) -> Result<Asked<f64, WRASSE_JOINTS>, Refused> {
         match self.kind {
             WRASSE_ASK_TOOL => self.tool(),
-            WRASSE_ASK_JOINTS => {
-                finite(c"WrasseAsked.joint_position", first(&self.joint_position, links))?;
-                finite(c"WrasseAsked.joint_rate", first(&self.joint_rate, links))?;
-                finite(c"WrasseAsked.joint_acceleration", first(&self.joint_acceleration, links))?;
-                Ok(Asked::Joints(JointSetPoint {
-                    q: joints(&self.joint_position, links),
-                    v: joints(&self.joint_rate, links),
-                    vdot: joints(&self.joint_acceleration, links),
-                }))
-            }
+            WRASSE_ASK_JOINTS => Ok(Asked::Joints(JointSetPoint {
+                q: joints(&self.joint_position, links),
+                v: joints(&self.joint_rate, links),
+                vdot: joints(&self.joint_acceleration, links),
+            })),
             WRASSE_ASK_STILL => Ok(Asked::Still),
             WRASSE_ASK_COAST => Ok(Asked::Coast),
             _ => {
@@ -160,12 +151,7 @@ impl WrasseAsked {
 
     fn tool(&self) -> Result<Asked<f64, WRASSE_JOINTS>, Refused> {
         let axes = choice(c"WrasseAsked.axes", self.axes, [Axes::Inertial, Axes::Base])?;
-        finite(c"WrasseAsked.tool_position", &self.tool_position)?;
         unit(c"WrasseAsked.tool_attitude", &self.tool_attitude)?;
-        finite(c"WrasseAsked.tool_velocity", &self.tool_velocity)?;
-        finite(c"WrasseAsked.tool_acceleration", &self.tool_acceleration)?;
-        finite(c"WrasseAsked.posture_gain", &[self.posture_gain])?;
-        finite(c"WrasseAsked.posture_gain_rate", &[self.posture_gain_rate])?;
         Ok(Asked::Tool {
             reference: ToolMotion {
                 X_NE: rotated(self.tool_attitude, self.tool_position),

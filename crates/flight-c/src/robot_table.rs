@@ -12,11 +12,12 @@ pub const WRASSE_JOINTS: usize = 14;
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct WrasseBody {
-    /// Mass (kg).
+    /// Mass (kg), at most 1e9; of the base at least 1e-6, of a link zero or more.
     pub mass: f64,
-    /// Centre of mass, from the body's origin, body axes (m).
+    /// Centre of mass, from the body's origin, body axes (m), between -1e4 and 1e4.
     pub centre_of_mass: [f64; 3],
-    /// Inertia about the centre of mass, body axes: xx, yy, zz, xy, xz, yz (kg·m²).
+    /// Inertia about the centre of mass, body axes: xx, yy, zz, xy, xz, yz (kg·m²), between -1e15 and
+    /// 1e15: one that matter can have, and of the base one that resists turning about every axis.
     pub inertia: [f64; 6],
 }
 
@@ -28,11 +29,12 @@ pub struct WrasseJoint {
     pub parent: i32,
     /// 0: it turns about its axis (rad). 1: it slides along its axis (m).
     pub sliding: i32,
-    /// Origin of the link at zero travel, from the parent's origin, parent axes (m).
+    /// Origin of the link at zero travel, from the parent's origin, parent axes (m), between -1e4 and
+    /// 1e4.
     pub position: [f64; 3],
     /// Turns link axes into parent axes at zero travel, by rows (–).
     pub rotation: [[f64; 3]; 3],
-    /// Its axis, link axes; made a unit vector (–).
+    /// Its axis, link axes, between -1e6 and 1e6; made a unit vector (–).
     pub axis: [f64; 3],
 }
 
@@ -52,7 +54,7 @@ pub struct WrasseLink {
 pub struct WrasseFrame {
     /// Number of the link that carries it; -1 for the base.
     pub link: i32,
-    /// Its origin, from the body's origin, body axes (m).
+    /// Its origin, from the body's origin, body axes (m), between -1e4 and 1e4.
     pub position: [f64; 3],
     /// Turns its axes into body axes, by rows (–).
     pub rotation: [[f64; 3]; 3],
@@ -117,8 +119,10 @@ pub(crate) fn check(
     links: &[WrasseLink],
     tool: &WrasseFrame,
 ) -> Result<(), Refused> {
-    each(c"WrasseBody.mass of the base", &[base.mass], c"a mass above zero", |m| m > 0.0)?;
+    let mass = c"between 1e-6 and 1e9";
+    each(c"WrasseBody.mass of the base", &[base.mass], mass, |m| m >= 1e-6)?;
     check_body(base, ONLY)?;
+    check_base(base)?;
     for (index, link) in links.iter().enumerate() {
         check_joint(&link.joint, index)?;
         check_body(&link.body, index)?;
@@ -128,7 +132,7 @@ pub(crate) fn check(
         let (field, expected) = (c"WrasseFrame.link", c"-1 or the number of a link");
         return Err(refused(WrasseStatus::WRASSE_BAD_NUMBER, field, ONLY, found, expected));
     }
-    finite(c"WrasseFrame.position", &tool.position)?;
+    length(c"WrasseFrame.position", &tool.position)?;
     check_rotation(c"WrasseFrame.rotation", &tool.rotation, ONLY)
 }
 
@@ -144,25 +148,66 @@ fn check_joint(joint: &WrasseJoint, index: usize) -> Result<(), Refused> {
         return Err(refused(status, c"WrasseJoint.sliding", index, found, c"0 or 1"));
     }
     let of_link = |r: Refused| r.of(index);
-    finite(c"WrasseJoint.position", &joint.position).map_err(of_link)?;
-    finite(c"WrasseJoint.axis", &joint.axis).map_err(of_link)?;
+    length(c"WrasseJoint.position", &joint.position).map_err(of_link)?;
+    each(c"WrasseJoint.axis", &joint.axis, c"between -1e6 and 1e6", |x| x.abs() <= 1e6)
+        .map_err(of_link)?;
     let square: f64 = joint.axis.iter().map(|x| x * x).sum();
     each(c"WrasseJoint.axis, its square", &[square], c"a vector that is not zero", |s| s > 1e-12)
         .map_err(of_link)?;
     check_rotation(c"WrasseJoint.rotation", &joint.rotation, index)
 }
 
+/// A place on a robot (m).
+fn length(field: &'static CStr, place: &[f64; 3]) -> Result<(), Refused> {
+    each(field, place, c"between -1e4 and 1e4", |x| x.abs() <= 1e4)
+}
+
 /// Mass and moments of inertia that matter can have.
 fn check_body(body: &WrasseBody, index: usize) -> Result<(), Refused> {
     let of_link = |r: Refused| r.of(index);
-    each(c"WrasseBody.mass", &[body.mass], c"zero or more", |m| m >= 0.0).map_err(of_link)?;
-    finite(c"WrasseBody.centre_of_mass", &body.centre_of_mass).map_err(of_link)?;
-    finite(c"WrasseBody.inertia", &body.inertia).map_err(of_link)?;
-    let [xx, yy, zz, ..] = body.inertia;
-    let spare = [xx, yy, zz, yy + zz - xx, zz + xx - yy, xx + yy - zz];
-    let size = xx + yy + zz;
+    let mass = c"between 0 and 1e9";
+    each(c"WrasseBody.mass", &[body.mass], mass, |m| (0.0..=1e9).contains(&m)).map_err(of_link)?;
+    length(c"WrasseBody.centre_of_mass", &body.centre_of_mass).map_err(of_link)?;
+    let range = c"between -1e15 and 1e15";
+    each(c"WrasseBody.inertia", &body.inertia, range, |x| x.abs() <= 1e15).map_err(of_link)?;
+    let [xx, yy, zz, xy, xz, yz] = body.inertia;
+    let spare = [yy + zz - xx, zz + xx - yy, xx + yy - zz, xx + yy + zz];
+    let size = (xx + yy + zz).max(f64::MIN_POSITIVE);
     let expected = c"moments above zero, none above the sum of the other two";
-    each(c"WrasseBody.inertia", &spare, expected, |s| s >= -1e-9 * size).map_err(of_link)
+    each(c"WrasseBody.inertia", &spare, expected, |s| s >= -1e-9 * size).map_err(of_link)?;
+    // The same about every axis: twice the second moments of the mass are not negative.
+    let part = |x: f64| x / size;
+    let moments = [
+        part(spare[0]),
+        part(spare[1]),
+        part(spare[2]),
+        -2.0 * part(xy),
+        -2.0 * part(xz),
+        -2.0 * part(yz),
+    ];
+    let (minors, whole) = minors(moments);
+    let expected = c"moments about its principal axes above zero, none above the sum of the others";
+    let least = [minors[0], minors[1], minors[2], whole];
+    each(c"WrasseBody.inertia, its products", &least, expected, |m| m >= -1e-9).map_err(of_link)
+}
+
+/// The determinants of a symmetric matrix (xx, yy, zz, xy, xz, yz): of its three pairs of axes, and of
+/// all of it.
+fn minors([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> ([f64; 3], f64) {
+    let pairs = [xx * yy - xy * xy, xx * zz - xz * xz, yy * zz - yz * yz];
+    (pairs, xx * pairs[2] - xy * (xy * zz - xz * yz) + xz * (xy * yz - xz * yy))
+}
+
+/// A base whose answer to a torque is finite.
+fn check_base(base: &WrasseBody) -> Result<(), Refused> {
+    let [xx, yy, zz, ..] = base.inertia;
+    let size = xx + yy + zz;
+    let field = c"WrasseBody.inertia of the base";
+    each(field, &[size], c"moments that sum to at least 1e-12", |s| s >= 1e-12)?;
+    let (_, share) = minors(base.inertia.map(|x| x / size));
+    let expected =
+        c"a determinant of at least 1e-9 of the cube of its trace: no axis without inertia";
+    each(field, &[share], expected, |s| s >= 1e-9)
 }
 
 fn check_rotation(field: &'static CStr, rows: &[[f64; 3]; 3], index: usize) -> Result<(), Refused> {

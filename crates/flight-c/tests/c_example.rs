@@ -1,11 +1,10 @@
 //! The example in C, compiled by a C compiler, gives what Rust gives.
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 #![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
-#![allow(clippy::print_stderr, reason = "what is skipped is said loudly")]
 
-use std::env;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+mod c_programs;
+
+use c_programs::run_in_c;
 use wrasse_dynamics::{Frame, Robot, State};
 use wrasse_flight::trajectory::ToolMotion;
 use wrasse_flight::{
@@ -16,35 +15,6 @@ use wrasse_flight_c::{WRASSE_JOINTS, WrasseFlight};
 use wrasse_hardware::JointLimits;
 use wrasse_spatial::{Mat3, Pose, Quat, SpatialVelocity, vec3};
 use wrasse_vehicle::{Vehicle, catalogue};
-
-/// Run a command; what it says of itself when it fails.
-#[track_caller]
-fn run(command: &mut Command) -> String {
-    let Output { status, stdout, stderr } = command.output().unwrap();
-    assert!(status.success(), "{command:?}: {status}\n{}", String::from_utf8_lossy(&stderr));
-    String::from_utf8(stdout).unwrap()
-}
-
-/// The C compiler, if there is one; in CI there must be one.
-fn c_compiler() -> Option<&'static str> {
-    let found = Command::new("cc").arg("--version").output().is_ok_and(|o| o.status.success());
-    if !found {
-        assert!(env::var_os("WRASSE_REQUIRE_TOOLS").is_none(), "no C compiler `cc`");
-        eprintln!("SKIPPED: the example in C was not run, there is no C compiler `cc`");
-    }
-    found.then_some("cc")
-}
-
-/// Build the static library as flight software would; where it lies.
-fn library(target: &Path) -> PathBuf {
-    let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
-    run(Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()))
-        .args(["rustc", "--quiet", "--profile", "flight", "--crate-type", "staticlib"])
-        .args(["--features", "panic-handler", "--manifest-path"])
-        .arg(manifest)
-        .env("CARGO_TARGET_DIR", target));
-    target.join("flight").join("libwrasse_flight_c.a")
-}
 
 fn atlas_class() -> Vehicle {
     catalogue().iter().find(|entry| entry.name == "atlas-class").unwrap().read().unwrap()
@@ -98,18 +68,7 @@ fn in_rust() -> Told<f64, 20> {
 /// origin. Measured 0 of the largest of each kind.
 #[test]
 fn the_example_in_c_is_told_what_rust_is_told() {
-    let Some(cc) = c_compiler() else { return };
-    let crate_folder = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR"));
-    let program = target.join("one_period");
-    run(Command::new(cc)
-        .args(["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-O2", "-I"])
-        .arg(crate_folder.join("../../include"))
-        .arg(crate_folder.join("c/one_period.c"))
-        .arg(library(target))
-        .args(["-lm", "-o"])
-        .arg(&program));
-    let printed = run(&mut Command::new(&program));
+    let Some(printed) = run_in_c("one_period", &[]) else { return };
     let rows: Vec<Vec<f64>> = printed
         .lines()
         .map(|line| line.split(' ').map(|word| word.parse().unwrap()).collect())

@@ -105,6 +105,14 @@ fn each_bad_table_is_refused_by_its_field() {
     refuses(|g| g.laws.law = 3, WRASSE_UNKNOWN_CHOICE, "WrasseLaws.law", -1);
     let late = WRASSE_PARENT_AFTER_CHILD;
     refuses(|g| g.links[0].joint.parent = 0, late, "WrasseJoint.parent", 0);
+    refuses(|g| g.base.inertia[2] = 200.0, number, "WrasseBody.inertia", -1);
+    refuses(|g| g.base.inertia[2] = 0.0, number, "WrasseBody.inertia of the base", -1);
+    refuses(|g| g.base.inertia = [0.0; 6], number, "WrasseBody.inertia of the base", -1);
+    let products = "WrasseBody.inertia, its products";
+    refuses(|g| g.links[1].body.inertia[3] = 0.9, number, products, 1);
+    let tool = "WrasseLaws.tool_gain, times period";
+    refuses(|g| g.laws.tool_gain = 100.0, number, tool, -1);
+    refuses(|g| g.laws.effort_limit[0] = 5e-324, number, "WrasseLaws.effort_limit", 0);
     let fifteen = |g: &mut Given| g.links = vec![g.links[0]; WRASSE_JOINTS + 1];
     refuses(fifteen, WRASSE_TOO_MANY_LINKS, "link_count", -1);
 }
@@ -139,12 +147,85 @@ fn still() -> WrasseAsked {
 }
 
 fn period(flight: &mut WrasseFlight, sensed: &WrasseSensed) -> (WrasseStatus, WrasseTold) {
-    let (mut told, asked) = (WrasseTold::default(), still());
-    // SAFETY: all point to what they are; the complaint may be null.
-    let status = unsafe {
-        wrasse_flight_period(flight, sensed, &raw const asked, &raw mut told, null_mut())
-    };
+    let (status, told, _) = period_asked(flight, sensed, &still());
     (status, told)
+}
+
+fn period_asked(
+    flight: &mut WrasseFlight,
+    sensed: &WrasseSensed,
+    asked: &WrasseAsked,
+) -> (WrasseStatus, WrasseTold, WrasseComplaint) {
+    // What stood there before must not be taken for what is told.
+    let mut told = WrasseTold { effort: [7.0; WRASSE_JOINTS], ..WrasseTold::default() };
+    let mut complaint = nothing_said();
+    // SAFETY: all point to what they are.
+    let status =
+        unsafe { wrasse_flight_period(flight, sensed, asked, &raw mut told, &raw mut complaint) };
+    (status, told, complaint)
+}
+
+/// A reading or a wish that is spoilt, the field it is in and its bound.
+type Spoilt = (fn(&mut WrasseSensed, &mut WrasseAsked, f64), &'static str, f64);
+
+/// Just above its bound a number is refused with its field, the number and its bounds; at the bound it
+/// is not refused for that.
+#[test]
+fn a_number_just_beyond_its_bound_is_refused_by_its_field_and_without_torque() {
+    let fields: [Spoilt; 12] = [
+        (|s, _, x| s.position[1] = x, "WrasseSensed.position", 1e6),
+        (|s, _, x| s.angular_velocity[1] = x, "WrasseSensed.angular_velocity", 10.0),
+        (|s, _, x| s.velocity[1] = x, "WrasseSensed.velocity", 100.0),
+        (|s, _, x| s.joint_position[1] = x, "WrasseSensed.joint_position", 1e6),
+        (|s, _, x| s.joint_rate[1] = x, "WrasseSensed.joint_rate", 100.0),
+        (|s, _, x| (s.wrench_felt, s.wrench[1]) = (1, x), "WrasseSensed.wrench", 1e6),
+        (|_, a, x| a.tool_position[1] = x, "WrasseAsked.tool_position", 1e6),
+        (|_, a, x| a.tool_velocity[1] = x, "WrasseAsked.tool_velocity", 10.0),
+        (|_, a, x| a.tool_acceleration[1] = x, "WrasseAsked.tool_acceleration", 100.0),
+        (|_, a, x| (a.kind, a.joint_position[1]) = (1, x), "WrasseAsked.joint_position", 1e6),
+        (|_, a, x| (a.kind, a.joint_rate[1]) = (1, x), "WrasseAsked.joint_rate", 100.0),
+        (
+            |_, a, x| (a.kind, a.joint_acceleration[1]) = (1, x),
+            "WrasseAsked.joint_acceleration",
+            1e4,
+        ),
+    ];
+    let mut flight = zeros();
+    assert_eq!(set_up(&mut flight, &good()).0, WrasseStatus::WRASSE_OK);
+    let (status, first) = period(&mut flight, &sensed());
+    assert_eq!(status, WrasseStatus::WRASSE_OK);
+    for (spoil, field, bound) in fields {
+        for found in [bound.next_up(), -bound.next_up(), 1e308, f64::NAN] {
+            let (mut sensed, mut asked) = (sensed(), WrasseAsked { kind: 0, ..still() });
+            spoil(&mut sensed, &mut asked, found);
+            let before = flight;
+            let (status, told, complaint) = period_asked(&mut flight, &sensed, &asked);
+            let of_sensed = field.starts_with("WrasseSensed");
+            let refused = if of_sensed {
+                WrasseStatus::WRASSE_BAD_READING
+            } else {
+                WrasseStatus::WRASSE_BAD_NUMBER
+            };
+            assert_eq!(
+                (status, text(complaint.field).as_str(), complaint.index),
+                (refused, field, 1)
+            );
+            assert!(text(complaint.expected).starts_with("between -"));
+            assert_eq!(complaint.found.to_bits(), found.to_bits());
+            assert_eq!(flight.memory, before.memory, "{field}: the memory has changed");
+            // Zeros, at the set-points that were told last.
+            let safe = WrasseTold { joint_position: first.joint_position, ..WrasseTold::default() };
+            assert_eq!(told, safe);
+        }
+        let (mut sensed, mut asked) = (sensed(), WrasseAsked { kind: 0, ..still() });
+        spoil(&mut sensed, &mut asked, bound);
+        let mut copy = flight;
+        let (status, ..) = period_asked(&mut copy, &sensed, &asked);
+        assert!(
+            [WrasseStatus::WRASSE_OK, WrasseStatus::WRASSE_BAD_RESULT].contains(&status),
+            "{field}: {status:?}"
+        );
+    }
 }
 
 /// The attitude law turns a turning base back: it was sensed, so the period did run.
@@ -157,7 +238,7 @@ fn a_bad_reading_changes_nothing_and_the_next_good_one_is_flown() {
     let mut blind = sensed();
     blind.joint_rate[1] = f64::INFINITY;
     let (status, told) = period(&mut flight, &blind);
-    assert_eq!((status, told), (WrasseStatus::WRASSE_BAD_NUMBER, WrasseTold::default()));
+    assert_eq!((status, told), (WrasseStatus::WRASSE_BAD_READING, WrasseTold::default()));
     let (status, told) = period(&mut flight, &sensed());
     assert_eq!((status, told), period(&mut untouched, &sensed()), "the refusal left a trace");
     assert_eq!(status, WrasseStatus::WRASSE_OK);
@@ -174,7 +255,7 @@ fn null_pointers_are_refused_and_every_status_has_its_text() {
     let status =
         unsafe { wrasse_flight_period(null_mut(), null(), null(), null_mut(), null_mut()) };
     assert_eq!(status, WrasseStatus::WRASSE_NULL_POINTER);
-    let texts: Vec<String> = (-1..=7).map(|k| text(wrasse_status_text(k))).collect();
-    assert_eq!(texts[0], texts[8]);
-    assert!((1..7).all(|k| texts[k] != texts[k + 1] && texts[k] != texts[0]), "{texts:?}");
+    let texts: Vec<String> = (-1..=10).map(|k| text(wrasse_status_text(k))).collect();
+    assert_eq!(texts[0], texts[11]);
+    assert!((1..10).all(|k| texts[k] != texts[k + 1] && texts[k] != texts[0]), "{texts:?}");
 }

@@ -14,6 +14,7 @@ mod random_robot;
 mod spanning_states;
 
 mod attitude_control;
+mod checked_period;
 mod computed_torque;
 mod computer;
 mod computer_outcomes;

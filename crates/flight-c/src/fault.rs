@@ -1,0 +1,133 @@
+//! Why a period was refused, in the words of the header.
+
+use crate::complaint::{ONLY, Refused, WrasseStatus, refused};
+use core::ffi::CStr;
+use wrasse_flight::{OutOfBounds, PeriodFault, Quantity};
+
+/// The complaint about a fault.
+pub(crate) fn refusal(fault: PeriodFault<f64>) -> Refused {
+    match fault {
+        PeriodFault::Reading(found) => {
+            complain(WrasseStatus::WRASSE_BAD_READING, of_sensed(&found), &found)
+        }
+        PeriodFault::Asked(found) => {
+            complain(WrasseStatus::WRASSE_BAD_NUMBER, of_asked(&found), &found)
+        }
+        PeriodFault::Told(found) => {
+            complain(WrasseStatus::WRASSE_BAD_RESULT, of_told(&found), &found)
+        }
+        PeriodFault::Memory => refused(
+            WrasseStatus::WRASSE_BAD_MEMORY,
+            c"WrasseFlight.memory",
+            ONLY,
+            f64::NAN,
+            c"finite numbers",
+        ),
+    }
+}
+
+fn complain(
+    status: WrasseStatus,
+    (field, index): (&'static CStr, usize),
+    found: &OutOfBounds<f64>,
+) -> Refused {
+    refused(status, field, index, found.found, expected(found.quantity))
+}
+
+fn of_sensed(found: &OutOfBounds<f64>) -> (&'static CStr, usize) {
+    let index = found.index;
+    match found.quantity {
+        Quantity::Position => (c"WrasseSensed.position", index),
+        Quantity::AngularVelocity => (c"WrasseSensed.angular_velocity", index),
+        Quantity::Velocity => (c"WrasseSensed.velocity", index),
+        Quantity::JointPosition => (c"WrasseSensed.joint_position", index),
+        Quantity::JointRate => (c"WrasseSensed.joint_rate", index),
+        Quantity::ToolTorque => (c"WrasseSensed.wrench", index),
+        Quantity::ToolForce => (c"WrasseSensed.wrench", index + 3),
+        _ => (c"WrasseSensed.attitude", ONLY),
+    }
+}
+
+fn of_asked(found: &OutOfBounds<f64>) -> (&'static CStr, usize) {
+    let index = found.index;
+    match found.quantity {
+        Quantity::Position => (c"WrasseAsked.tool_position", index),
+        Quantity::AngularVelocity => (c"WrasseAsked.tool_velocity", index),
+        Quantity::Velocity => (c"WrasseAsked.tool_velocity", index + 3),
+        Quantity::AngularAcceleration => (c"WrasseAsked.tool_acceleration", index),
+        Quantity::Acceleration => (c"WrasseAsked.tool_acceleration", index + 3),
+        Quantity::PostureGain => (c"WrasseAsked.posture_gain", ONLY),
+        Quantity::PostureGainRate => (c"WrasseAsked.posture_gain_rate", ONLY),
+        Quantity::JointPosition => (c"WrasseAsked.joint_position", index),
+        Quantity::JointRate => (c"WrasseAsked.joint_rate", index),
+        Quantity::JointAcceleration => (c"WrasseAsked.joint_acceleration", index),
+        _ => (c"WrasseAsked.tool_attitude", ONLY),
+    }
+}
+
+fn of_told(found: &OutOfBounds<f64>) -> (&'static CStr, usize) {
+    let index = found.index;
+    match found.quantity {
+        Quantity::JointPosition => (c"WrasseTold.joint_position", index),
+        Quantity::JointRate => (c"WrasseTold.joint_rate", index),
+        Quantity::JointAcceleration => (c"WrasseTold.joint_acceleration", index),
+        Quantity::Effort => (c"WrasseTold.effort", index),
+        Quantity::AttitudeTorque => (c"WrasseTold.attitude_torque", index),
+        Quantity::ForceAhead => (c"WrasseTold.force_ahead", index),
+        _ => (c"WrasseTold", index),
+    }
+}
+
+/// What a number of this quantity must be, as it stands in the header.
+pub(crate) fn expected(quantity: Quantity) -> &'static CStr {
+    match quantity {
+        Quantity::Attitude => c"components whose squares sum to 1",
+        Quantity::AngularVelocity | Quantity::PostureGain => c"between -10 and 10",
+        Quantity::Velocity
+        | Quantity::AngularAcceleration
+        | Quantity::Acceleration
+        | Quantity::JointRate
+        | Quantity::PostureGainRate => c"between -100 and 100",
+        Quantity::JointAcceleration => c"between -1e4 and 1e4",
+        Quantity::Position
+        | Quantity::JointPosition
+        | Quantity::ToolTorque
+        | Quantity::ToolForce => c"between -1e6 and 1e6",
+        Quantity::Effort => c"a finite number within WrasseLaws.effort_limit",
+        Quantity::AttitudeTorque | Quantity::ForceAhead => c"a finite number",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::expected;
+    use wrasse_flight::Quantity;
+
+    /// `between -LIMIT and LIMIT`, as a number.
+    fn limit(quantity: Quantity) -> Option<f64> {
+        let text = expected(quantity).to_str().ok()?;
+        let (least, most) = text.strip_prefix("between ")?.split_once(" and ")?;
+        let (least, most): (f64, f64) = (least.parse().ok()?, most.parse().ok()?);
+        (least == -most).then_some(most)
+    }
+
+    #[test]
+    fn a_refusal_states_the_bound_that_is_checked() {
+        for quantity in [
+            Quantity::Position,
+            Quantity::AngularVelocity,
+            Quantity::Velocity,
+            Quantity::AngularAcceleration,
+            Quantity::Acceleration,
+            Quantity::JointPosition,
+            Quantity::JointRate,
+            Quantity::JointAcceleration,
+            Quantity::ToolTorque,
+            Quantity::ToolForce,
+            Quantity::PostureGain,
+            Quantity::PostureGainRate,
+        ] {
+            assert_eq!(limit(quantity), Some(quantity.bound()), "{quantity:?}");
+        }
+    }
+}
