@@ -25,14 +25,17 @@
 
 mod complaint;
 mod document;
+mod excerpt;
 mod in_part;
 mod positioned;
 mod render;
 mod schema_walk;
 mod suggestion;
+mod visible;
 
 pub use complaint::{Complaint, Severity, Source};
 pub use document::{Document, Step, schema_of};
 pub use in_part::Part;
 pub use render::render;
 pub use suggestion::closest;
+pub use visible::{visible, visible_json, visible_lines};
