@@ -269,7 +269,7 @@ mod tests {
             aligned(&rows, &[Side::Left, Side::Right]),
             "a                 1\n\
              längere·name  -12.5\n\
-             x\\u{1b}[2J      3e-7\n"
+             x\\u{1b}[2J     3e-7\n"
         );
     }
 }

@@ -79,7 +79,7 @@ fn wrong_with_inertia(name: &str, inertia: Sym3<f64>) -> Option<Wrong> {
              {shown} kg·m²"
         );
         let help = "give a small part the inertia of a ball, 0.4 m r²; \
-                    check the signs of the moments and products of inertia";
+                    check the signs of the products of inertia";
         return Some(Wrong { message, help, flies: false });
     }
     (c > (a + b) * (1.0 + ROUND_OFF)).then(|| {
