@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use wrasse_mission::Progress;
 
 /// Time between two lines where no bar is seen.
-const MINUTE: Duration = Duration::from_secs(60);
+const MINUTE: Duration = Duration::from_mins(1);
 
 /// Stack of the thread that tells of progress (bytes): it formats a line.
 const STACK: usize = 256 << 10;

@@ -370,21 +370,31 @@ fn an_interrupted_sweep_says_what_it_keeps_and_ends_with_130() {
 }
 
 #[test]
-fn the_complaints_of_a_urdf_take_the_time_of_their_number() {
+fn complaints_take_the_time_of_their_number_and_not_of_its_square() {
     let folder = Folder::new();
-    let time = |count: usize| {
+    let toml = |count: usize| -> String { (0..count).map(|i| format!("k{i} = 1\n")).collect() };
+    let urdf = |count: usize| {
         let each = |i| {
             format!(
-                "<link name='l'/><joint name='j' type='fixed'><parent link='p{i}'/><child link='c{i}'/></joint>\n"
+                "<link name='l'/><joint name='j' type='fixed'><parent link='p{i}'/>\
+                 <child link='c{i}'/></joint>\n"
             )
         };
-        let text: String = (0..count).map(each).collect();
-        folder.put("many.urdf", &format!("<robot name='a'>{text}</robot>"));
+        let all: String = (0..count).map(each).collect();
+        format!("<robot name='a'>{all}</robot>")
+    };
+    let time = |file: &str, text: String| {
+        folder.put(file, &text);
         let began = Instant::now();
-        refused(&folder.wrasse(&["check", "many.urdf"]), &["the first 100 are shown"]);
+        refused(&folder.wrasse(&["check", file]), &["the first 100 are shown"]);
         began.elapsed().as_secs_f64()
     };
-    let (few, many) = (time(1000), time(8000));
+    let times = [
+        ("toml", time("a.toml", toml(4000)), time("a.toml", toml(32_000))),
+        ("urdf", time("a.urdf", urdf(1000)), time("a.urdf", urdf(8000))),
+    ];
     // Eight times the mistakes; sixty-four times would be the square.
-    assert!(many < 30.0 * few, "{few} s for 1000, {many} s for 8000");
+    for (format, few, many) in times {
+        assert!(many < 30.0 * few, "{format}: {few} s for some, {many} s for eight times as many");
+    }
 }

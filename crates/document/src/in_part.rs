@@ -115,7 +115,11 @@ impl Places {
     fn of_item(&mut self, item: &Positioned) -> bool {
         let within = match &item.value {
             Value::Table(table) => self.of_table(table),
-            Value::Array(items) => items.iter().fold(false, |any, item| self.of_item(item) || any),
+            Value::Array(items) => {
+                // Every item is gone through.
+                let holding = items.iter().filter(|item| self.of_item(item)).count();
+                holding > 0
+            }
             _ => false,
         };
         let holds = within || self.faulty.contains(&key(&item.span));

@@ -3,6 +3,7 @@
 use crate::positioned::{Entry, Positioned, Table, Value};
 use crate::{Complaint, Source};
 use serde::de::IgnoredAny;
+use std::collections::btree_map::Entry as Slot;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -88,11 +89,14 @@ impl Reading<'_> {
             let name = self.string()?;
             let key_span = from..self.at;
             let item = self.value()?;
-            if table.contains_key(&name) {
-                let message = format!("{name:?} is given twice in one object");
-                self.complain(key_span, &message, "the second", "leave one of them out");
-            } else {
-                table.insert(name, Entry { key_span, item });
+            match table.entry(name) {
+                Slot::Vacant(free) => {
+                    free.insert(Entry { key_span, item });
+                }
+                Slot::Occupied(first) => {
+                    let message = format!("{:?} is given twice in one object", first.key());
+                    self.complain(key_span, &message, "the second", "leave one of them out");
+                }
             }
         }
     }

@@ -83,7 +83,9 @@ impl Repairs {
             Value::Table(table) => self.table(table, Some(&here), faulty),
             Value::Array(items) => {
                 items.retain_mut(|item| self.stays(item, faulty));
-                items.iter_mut().for_each(|item| self.within(item, faulty));
+                for item in items {
+                    self.within(item, faulty);
+                }
             }
             _ => {}
         }
@@ -149,12 +151,12 @@ fn made_up<'s>(
         "boolean" => Some(Value::Boolean(false)),
         "string" => Some(Value::String(UNKNOWN.to_owned())),
         "array" => {
-            let least = schema["minItems"].as_u64().unwrap_or(0);
-            let item = |i: u64| {
-                let of_item = schema["prefixItems"].get(i as usize).or_else(|| schema.get("items"));
+            let least = schema["minItems"].as_u64().and_then(|n| usize::try_from(n).ok());
+            let item = |i: usize| {
+                let of_item = schema["prefixItems"].get(i).or_else(|| schema.get("items"));
                 of_item.and_then(any).map(|value| Positioned { span: 0..0, value })
             };
-            (0..least).map(item).collect::<Option<_>>().map(Value::Array)
+            (0..least.unwrap_or(0)).map(item).collect::<Option<_>>().map(Value::Array)
         }
         "object" => {
             let required = schema["required"].as_array().into_iter().flatten();

@@ -282,12 +282,11 @@ impl<'a> Walk<'a> {
                 self.replace(shapes, &item.span);
             }
             Some((Value::String(word), span)) => {
-                match shapes.iter().find(|s| word_of(s) == Some(word)) {
-                    Some(shape) => self.table(shape, name, Some(&item.span), table),
-                    None => {
-                        self.word(&words, &format!("`{tag}`"), word, span);
-                        self.replace(shapes, &item.span);
-                    }
+                if let Some(shape) = shapes.iter().find(|s| word_of(s) == Some(word)) {
+                    self.table(shape, name, Some(&item.span), table);
+                } else {
+                    self.word(&words, &format!("`{tag}`"), word, span);
+                    self.replace(shapes, &item.span);
                 }
             }
             Some((other, span)) => {

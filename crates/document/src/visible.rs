@@ -2,6 +2,7 @@
 //! be seen at all is written as an escape.
 
 use std::borrow::Cow;
+use std::fmt::Write as _;
 use std::ops::RangeInclusive;
 
 /// Characters without a glyph of their own, beside the controls (C0, DEL, C1): they are not seen, or
@@ -61,7 +62,8 @@ pub fn visible_json(json: &str) -> Cow<'_, str> {
         if hidden(c) {
             let mut units = [0; 2];
             for unit in c.encode_utf16(&mut units) {
-                shown += &format!("\\u{unit:04x}");
+                // Writing to a string cannot fail.
+                let _ = write!(shown, "\\u{unit:04x}");
             }
         } else {
             shown.push(c);

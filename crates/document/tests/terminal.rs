@@ -1,7 +1,6 @@
-//! What complaints do to the terminal that shows them, and to the time of the reader.
+//! What complaints do to the terminal that shows them.
 
-use std::time::{Duration, Instant};
-use wrasse_document::{Complaint, Document, Source, render};
+use wrasse_document::{Complaint, Source, render};
 
 #[test]
 fn no_text_of_a_file_reaches_the_terminal_as_a_command() {
@@ -45,33 +44,4 @@ fn of_many_complaints_the_first_hundred_are_shown_and_all_are_counted() {
     assert!(drawn.ends_with("the first 100 are shown, 2400 more are not\n2500 errors\n"));
     all.truncate(100);
     assert!(render(&all, false).ends_with("\n\n100 errors\n"));
-}
-
-/// Reading and complaining, for one mistake in each of `count` lines.
-fn time_of(count: usize) -> Duration {
-    #[derive(serde::Deserialize, schemars::JsonSchema)]
-    #[serde(deny_unknown_fields)]
-    struct Craft {
-        #[allow(dead_code, reason = "read only")]
-        mass_kg: f64,
-    }
-    let text: String = (0..count).map(|i| format!("k{i} = 1\n")).collect();
-    let began = Instant::now();
-    let document = Document::parse("many.toml", text).unwrap();
-    let part = document.read_in_part::<Craft>();
-    assert_eq!(part.complaints.len(), count + 1);
-    let meaning = (0..count).map(|i| document.error(&[], format!("{i}"), "")).collect();
-    let all = document.beside(part.complaints, meaning);
-    assert!(render(&all, false).len() < 100_000);
-    began.elapsed()
-}
-
-/// Ten times the mistakes take ten times the time; a hundred times would be the square. Measured 9 to
-/// 13; the bound leaves room for a machine with other work.
-#[test]
-fn the_time_of_complaints_grows_with_their_number_and_not_with_its_square() {
-    let best = |count| (0..3).map(|_| time_of(count)).min().unwrap();
-    let (few, many) = (best(2000), best(20_000));
-    let ratio = many.as_secs_f64() / few.as_secs_f64();
-    assert!(ratio < 40.0, "{few:?} for 2000, {many:?} for 20000: {ratio:.1} times");
 }

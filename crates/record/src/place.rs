@@ -17,8 +17,8 @@ const RESULTS: [&str; 4] = ["report.html", "telemetry.parquet", "samples.parquet
 /// Keeps others from taking the folder in which it lies for a leftover.
 const LOCK: &str = "lock";
 
-/// A folder without a lock that is older than this (s) is a leftover.
-const YOUNG: Duration = Duration::from_secs(60);
+/// A folder without a lock that is older than this is a leftover.
+const YOUNG: Duration = Duration::from_mins(1);
 
 /// Sees to it that results can be put into `dir` later: for the time before a long flight. Leaves no
 /// folder that was not there, and puts right what a killed program left.
@@ -169,14 +169,12 @@ fn is_root_of_file_system(_dir: &Path, _above: &Path) -> bool {
 
 /// Whether nobody writes into a hidden folder any more.
 fn is_leftover(folder: &Path) -> bool {
-    match File::open(folder.join(LOCK)) {
-        Ok(lock) => lock.try_lock().is_ok(),
-        Err(_) => {
-            let age = folder.metadata().and_then(|known| known.modified()).map(|at| at.elapsed());
-            let is_young = matches!(age, Ok(Ok(age)) if age < YOUNG);
-            folder.is_dir() && (!is_young || has_ended(folder))
-        }
+    if let Ok(lock) = File::open(folder.join(LOCK)) {
+        return lock.try_lock().is_ok();
     }
+    let age = folder.metadata().and_then(|known| known.modified()).map(|at| at.elapsed());
+    let is_young = matches!(age, Ok(Ok(age)) if age < YOUNG);
+    folder.is_dir() && (!is_young || has_ended(folder))
 }
 
 /// Whether the program whose number ends the folder's name is known to have ended.
@@ -218,10 +216,11 @@ impl Staging {
         Self::make(dir.join(format!(".wrasse-{}", std::process::id())))
     }
     fn make(folder: PathBuf) -> Result<Self, RecordError> {
-        let cannot = |e| refused("write", &folder, e);
-        fs::create_dir(&folder).map_err(cannot)?;
-        let mut staging = Self { folder: folder.clone(), lock: None };
-        let lock = File::create(folder.join(LOCK)).map_err(cannot)?;
+        fs::create_dir(&folder).map_err(|e| refused("write", &folder, e))?;
+        // From here on it goes away with its value.
+        let mut staging = Self { folder, lock: None };
+        let path = staging.folder.join(LOCK);
+        let lock = File::create(&path).map_err(|e| refused("write", &path, e))?;
         // Where files cannot be locked the age of the folder must do.
         staging.lock = lock.try_lock().is_ok().then_some(lock);
         Ok(staging)
