@@ -5,7 +5,7 @@ use crate::{YES, bad};
 use clap::Args;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use wrasse_document::{Complaint, Document};
+use wrasse_document::{Complaint, Document, visible};
 use wrasse_mission::read_mission;
 use wrasse_vehicle::read_vehicle;
 
@@ -38,7 +38,7 @@ impl Check {
                 complain(&complaints);
             }
             match what {
-                Some(what) => say(&format!("{}: {what}", file.display())),
+                Some(what) => say(&visible(&format!("{}: {what}", file.display()))),
                 None => all_usable = false,
             }
         }

@@ -1,17 +1,17 @@
 //! `wrasse eval`: every quantity of the dynamics at given states, as JSON.
 
 use crate::eval_answer::answer;
-use crate::input::{complain, say, tell, text_of};
+use crate::input::{complain, say_json, tell, text_up_to};
 use crate::{YES, bad};
 use clap::Args;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::Value;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::Arc;
-use wrasse_document::{Complaint, Source, closest};
+use wrasse_document::{Complaint, Document, at, closest};
 use wrasse_dynamics::{Generalized, State};
 use wrasse_spatial::{Pose, Quat, SpatialForce, SpatialVelocity, Vec3};
 use wrasse_vehicle::{JOINTS, NoVehicle, Vehicle, find_vehicle};
@@ -29,15 +29,18 @@ pub(crate) struct Eval {
     states: PathBuf,
 }
 
+/// Largest file of states (bytes): some 100,000 states.
+const MOST_STATES: u64 = 64 << 20;
+
 /// What `--states` holds.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct StatesFile {
     frame: String,
     states: Vec<StateFile>,
 }
 
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 struct StateFile {
     base: BaseFile,
@@ -47,14 +50,14 @@ struct StateFile {
     joints: BTreeMap<String, JointFile>,
 }
 
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 struct BaseFile {
     position: [f64; 3],
     attitude: Option<AttitudeFile>,
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct AttitudeFile {
     w: f64,
@@ -63,21 +66,21 @@ struct AttitudeFile {
     z: f64,
 }
 
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 struct TwistFile {
     angular: [f64; 3],
     linear: [f64; 3],
 }
 
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 struct WrenchFile {
     torque: [f64; 3],
     force: [f64; 3],
 }
 
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 struct JointFile {
     position: f64,
@@ -102,13 +105,13 @@ impl Eval {
                 complain(&complaints);
                 return bad();
             }
-            Err(NoVehicle::NotFound { message, help }) => {
+            Err(NoVehicle::NotFound { message, help, .. }) => {
                 tell(&format!("error: {message}\nhelp: {help}"));
                 return bad();
             }
             Err(_) => return bad(),
         };
-        let text = match text_of(&self.states) {
+        let text = match text_up_to(&self.states, MOST_STATES) {
             Ok(text) => text,
             Err(sentence) => {
                 tell(&format!("error: {sentence}"));
@@ -135,7 +138,7 @@ fn answered(answer: &Value) -> ExitCode {
         .map(|(i, (name, _))| format!("error: state {i}: {name} is not finite"))
         .collect();
     if broken.is_empty() {
-        say(&answer.to_string());
+        say_json(answer);
         return YES;
     }
     let help = "help: the numbers of the state are too large to be worked with";
@@ -158,80 +161,53 @@ pub(crate) fn questions(
     text: String,
     vehicle: &Vehicle,
 ) -> Result<(String, Vec<Question>), Vec<Complaint>> {
-    let source = Source::new(path, text);
-    let file: StatesFile =
-        serde_json::from_str(&source.text).map_err(|error| vec![misshapen(&source, &error)])?;
-    let mut complaints = vec![];
-    let mut unknown = |name: &str, what: &str, names: Vec<&str>| {
-        let at = source.text.find(&format!("\"{name}\"")).unwrap_or(0);
-        let message = format!("the vehicle has no {what} called {name:?}");
-        let complaint = Complaint::error(&source, message).at(at..at + name.len() + 2, "this name");
-        complaints.push(match closest(name, names.iter().copied()) {
-            Some(close) => complaint.with_help(format!("did you mean {close:?}?")),
-            None => complaint.with_help(format!("one of {}", names.join(", "))),
-        });
-    };
-    if vehicle.frame(&file.frame).is_none() {
-        let names = vehicle.frames.iter().map(|f| f.name.as_str()).collect();
-        unknown(&file.frame, "link", names);
-    }
-    let mut asked: Vec<&str> = vec![];
-    for name in file.states.iter().flat_map(|s| s.joints.keys()) {
-        if vehicle.joint(name).is_none() && !asked.contains(&name.as_str()) {
-            asked.push(name);
-            let names = vehicle.joint_names.iter().map(String::as_str).collect();
-            unknown(name, "moving joint", names);
-        }
-    }
+    let document = Document::parse_json(path, text)?;
+    let part = document.read_in_part::<StatesFile>();
+    let Some(file) = part.value else { return Err(part.complaints) };
+    let mut complaints = wrong_names(&part.document, &file, vehicle);
     let mut questions = vec![];
     for (i, state) in file.states.iter().enumerate() {
         match question(state, vehicle) {
             Ok(question) => questions.push(question),
             Err(why) => {
-                let complaint = Complaint::error(&source, format!("state {i}: {why}"))
-                    .with_help("divide all four components by the length");
-                complaints.push(match attitude_span(&source.text, &file.states[..i]) {
-                    Some(span) => complaint.at(span, "this attitude"),
-                    None => complaint,
-                });
+                let at = at!["states", i, "base", "attitude"];
+                let message = format!("state {i}: {why}");
+                let complaint = part.document.error(at, message, "this attitude");
+                complaints.push(complaint.with_help("divide all four components by the length"));
             }
         }
     }
+    let complaints = document.beside(part.complaints, complaints);
     if complaints.is_empty() { Ok((file.frame, questions)) } else { Err(complaints) }
 }
 
-/// What keeps a text from being states.
-fn misshapen(source: &Arc<Source>, error: &serde_json::Error) -> Complaint {
-    let message = error.to_string();
-    let message = message.split(" at line ").next().unwrap_or_default();
-    let message = message.replace("expected f64", "expected a number");
-    let span = token(&source.text, error.line(), error.column());
-    Complaint::error(source, message).at(span, "here")
-}
-
-/// Byte range of the word, number or mark that ends at a line and column, both from 1.
-fn token(text: &str, line: usize, column: usize) -> Range<usize> {
-    let before: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
-    let mut end = (before + column).min(text.len());
-    while !text.is_char_boundary(end) {
-        end += 1;
-    }
-    let head = &text[..end];
-    let start = if let Some(word) = head.strip_suffix('"') {
-        word.rfind('"').unwrap_or(word.len())
-    } else {
-        let number = |c: char| c.is_ascii_alphanumeric() || "+-.".contains(c);
-        let start = head.trim_end_matches(number).len();
-        start.min(head.char_indices().last().map_or(0, |(last, _)| last))
+/// Names that the vehicle does not have; each of them once.
+fn wrong_names(document: &Document, file: &StatesFile, vehicle: &Vehicle) -> Vec<Complaint> {
+    let unknown = |at: Option<Range<usize>>, name: &str, what: &str, names: Vec<&str>| {
+        let message = format!("the vehicle has no {what} called {name:?}");
+        let complaint = Complaint::error(document.source(), message);
+        let complaint = complaint.at(at.unwrap_or(0..0), "this name");
+        match closest(name, names.iter().copied()) {
+            Some(close) => complaint.with_help(format!("did you mean {close:?}?")),
+            None => complaint.with_help(format!("one of {}", names.join(", "))),
+        }
     };
-    start..end
-}
-
-/// Byte range of the key of the first attitude that stands behind those of `earlier` states.
-fn attitude_span(text: &str, earlier: &[StateFile]) -> Option<Range<usize>> {
-    const KEY: &str = "\"attitude\"";
-    let count = earlier.iter().filter(|state| state.base.attitude.is_some()).count();
-    text.match_indices(KEY).nth(count).map(|(at, _)| at..at + KEY.len())
+    let mut complaints = vec![];
+    if vehicle.frame(&file.frame).is_none() {
+        let names = vehicle.frames.iter().map(|f| f.name.as_str()).collect();
+        complaints.push(unknown(document.span(at!["frame"]), &file.frame, "link", names));
+    }
+    let mut asked = BTreeSet::new();
+    for (i, state) in file.states.iter().enumerate() {
+        for name in state.joints.keys() {
+            if vehicle.joint(name).is_none() && asked.insert(name) {
+                let names = vehicle.joint_names.iter().map(String::as_str).collect();
+                let at = document.key_span(at!["states", i, "joints", name]);
+                complaints.push(unknown(at, name, "moving joint", names));
+            }
+        }
+    }
+    complaints
 }
 
 fn question(file: &StateFile, vehicle: &Vehicle) -> Result<Question, String> {

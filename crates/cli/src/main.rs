@@ -1,6 +1,6 @@
 //! The binary `wrasse`: rehearses servicing missions of free-flying robots.
 //!
-//! Exit codes: 0 all requirements hold; 1 the answer is no; 2 bad input or breakdown.
+//! Exit codes: 0 all requirements hold; 1 the answer is no; 2 bad input or breakdown; 130 Ctrl-C.
 
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
@@ -9,6 +9,7 @@ mod eval;
 mod eval_answer;
 mod hardware;
 mod input;
+mod interrupt;
 mod progress;
 mod run;
 mod schema;
@@ -41,8 +42,32 @@ enum Command {
     Schema(schema::Schema),
 }
 
+/// Stack of the thread that does the work (bytes): planning keeps the matrices of many joints by value,
+/// and a shell may grant less to the first thread.
+const STACK: usize = 64 << 20;
+
 fn main() -> ExitCode {
-    match Wrasse::parse().command {
+    let command = match Wrasse::try_parse() {
+        Ok(Wrasse { command }) => command,
+        Err(answer) if answer.use_stderr() => {
+            input::tell(&answer.to_string());
+            return bad();
+        }
+        // Help, and the version.
+        Err(answer) => answer.exit(),
+    };
+    let command = std::sync::Arc::new(command);
+    let work = std::sync::Arc::clone(&command);
+    let thread = std::thread::Builder::new().name("wrasse".into()).stack_size(STACK);
+    match thread.spawn(move || go(&work)) {
+        Ok(thread) => thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+        // A system that grants no thread has the first one do it.
+        Err(_) => go(&command),
+    }
+}
+
+fn go(command: &Command) -> ExitCode {
+    match command {
         Command::Run(run) => run.go(),
         Command::Sweep(sweep) => sweep.go(),
         Command::Size(size) => size.go(),

@@ -1,13 +1,14 @@
 //! `wrasse run`: a mission, from its file to its verdict.
 
-use crate::input::{complain, say, tell, text_of};
+use crate::input::{complain, say, say_json, tell, text_of};
+use crate::interrupt::at_interrupt;
 use crate::progress::Bar;
 use crate::{YES, bad, no};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use wrasse_mission::{End, Outcome, RunOptions, read_mission, run};
-use wrasse_record::{summary_json, verdict_table, write_results};
+use wrasse_record::{prepare_place, summary_json, verdict_table, write_results};
 
 /// Fly a mission, judge its requirements, write the report.
 ///
@@ -61,16 +62,12 @@ impl Run {
             mission = mission.sampled(self.seed.unwrap_or(mission.seed), sample);
         }
         let folder = self.out.clone().unwrap_or(usual);
-        if let Some(way) = in_the_way(&folder) {
-            tell(&format!(
-                "error: the results cannot be written to {}: {} is not a folder; choose another \
-                 place with --out",
-                folder.display(),
-                way.display()
-            ));
+        if let Err(error) = prepare_place(&folder) {
+            tell(&format!("error: the results cannot be written: {error}"));
             return bad();
         }
-        let bar = Bar::new(mission.case_count());
+        at_interrupt(|| "nothing is kept; former results are as they were".into());
+        let bar = Bar::new();
         let options = RunOptions { error_estimate: self.error_estimate };
         let outcome = run(&mission, options, &mut |progress| bar.show(progress));
         bar.done();
@@ -87,7 +84,7 @@ impl Run {
             }
         };
         if self.json {
-            say(&summary_json(outcome).to_string());
+            say_json(&summary_json(outcome));
         } else {
             say(&verdict_table(outcome));
             say(&format!("report: {}", written.report.display()));
@@ -97,9 +94,4 @@ impl Run {
         }
         if outcome.cases.iter().all(|case| case.passed) { YES } else { no() }
     }
-}
-
-/// What stands where a folder, or one above it, has to be: worth knowing before a long flight.
-pub(crate) fn in_the_way(folder: &Path) -> Option<&Path> {
-    folder.ancestors().find(|above| above.exists()).filter(|above| !above.is_dir())
 }

@@ -1,14 +1,14 @@
 //! `wrasse size`: what a task asks of the base, and which actuators can give it.
 
-use crate::input::{complain, say, tell, text_of};
+use crate::input::{complain, say, say_json, tell, text_of};
+use crate::interrupt::at_interrupt;
 use crate::progress::Bar;
-use crate::run::in_the_way;
 use crate::{YES, bad};
 use clap::Args;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use wrasse_record::{study_json, study_table, write_study};
+use wrasse_record::{prepare_place, study_json, study_table, write_study};
 use wrasse_study::{StudyOutcome, read_study, size};
 
 /// Size the actuators of a base: what a task asks, which sets can give it, how much slower it must be.
@@ -54,17 +54,13 @@ impl Size {
         // The report of a run of the same file stays what it is.
         let usual = || PathBuf::from("out").join(format!("{}-size", study.name()));
         let folder = self.out.clone().unwrap_or_else(usual);
-        if let Some(way) = in_the_way(&folder) {
-            tell(&format!(
-                "error: the results cannot be written to {}: {} is not a folder; choose another \
-                 place with --out",
-                folder.display(),
-                way.display()
-            ));
+        if let Err(error) = prepare_place(&folder) {
+            tell(&format!("error: the results cannot be written: {error}"));
             return bad();
         }
+        at_interrupt(|| "nothing is kept; former results are as they were".into());
         let threads = self.threads.or_else(|| std::thread::available_parallelism().ok());
-        let bar = Bar::new(study.flights());
+        let bar = Bar::new();
         let outcome = size(&study, threads.map_or(1, NonZeroUsize::get), &mut |p| bar.show(p));
         bar.done();
         self.hand_over(&outcome, &folder)
@@ -80,7 +76,7 @@ impl Size {
             }
         };
         if self.json {
-            say(&study_json(outcome).to_string());
+            say_json(&study_json(outcome));
         } else {
             say(&study_table(outcome));
             say(&format!("report: {}", written.report.display()));

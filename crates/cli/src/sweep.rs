@@ -1,15 +1,17 @@
 //! `wrasse sweep`: many samples of a mission of which not everything is known exactly.
 
-use crate::input::{complain, say, tell, text_of};
+use crate::input::{complain, say, say_json, tell, text_of};
+use crate::interrupt::at_interrupt;
 use crate::progress::Bar;
-use crate::run::in_the_way;
 use crate::{YES, bad, no};
 use clap::{Args, value_parser};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use wrasse_mission::{Mission, read_mission};
-use wrasse_record::{sweep_json, sweep_table, write_sweep};
+use wrasse_record::{prepare_place, sweep_json, sweep_table, write_sweep};
 use wrasse_sweep::{OwnedFolder, SweepError, SweepOutcome, sweep};
 
 /// Fly many samples of a mission: how often it succeeds, how its values spread, which samples are worst.
@@ -76,13 +78,8 @@ impl Sweep {
         }
         let usual = || PathBuf::from("out").join(format!("{}-sweep", mission.name));
         let folder = self.out.clone().unwrap_or_else(usual);
-        if let Some(way) = in_the_way(&folder) {
-            tell(&format!(
-                "error: the results cannot be written to {}: {} is not a folder; choose another \
-                 place with --out",
-                folder.display(),
-                way.display()
-            ));
+        if let Err(error) = prepare_place(&folder) {
+            tell(&format!("error: the results cannot be written: {error}"));
             return bad();
         }
         match self.fly(&mission, &folder) {
@@ -103,10 +100,20 @@ impl Sweep {
             threads: threads.map_or(1, NonZeroUsize::get),
         };
         asked.check()?;
+        let parts = folder.join("parts");
         // It stays owned until the results are written: nobody else's come between.
-        let owned = OwnedFolder::take(&folder.join("parts"))?;
-        let bar = Bar::counting();
-        let outcome = sweep(&asked, &owned, &mut |done, of| bar.count(done, of));
+        let owned = OwnedFolder::take(&parts)?;
+        let bar = Bar::new();
+        let kept = Arc::new(AtomicU64::new(0));
+        let (counted, place) = (Arc::clone(&kept), parts.display().to_string());
+        at_interrupt(move || {
+            let flights = counted.load(Ordering::Relaxed);
+            format!("{flights} flights are kept in {place}; the same command goes on from there")
+        });
+        let outcome = sweep(&asked, &owned, &mut |done, of| {
+            kept.store(done, Ordering::Relaxed);
+            bar.count(done, of);
+        });
         bar.done();
         Ok(self.hand_over(&outcome?, folder))
     }
@@ -121,7 +128,7 @@ impl Sweep {
             }
         };
         if self.json {
-            say(&sweep_json(outcome).to_string());
+            say_json(&sweep_json(outcome));
         } else {
             say(&sweep_table(outcome));
             say(&format!("report: {}", written.report.display()));

@@ -131,7 +131,13 @@ fn results_that_a_folder_of_the_same_name_keeps_out_end_with_2_and_leave_nothing
     let said = folder.wrasse(&["run", "mission.toml", "--out", "results"]);
     assert_eq!((said.code, said.out.as_str()), (2, ""));
     assert!(said.err.starts_with("error: the results cannot be written: "), "{}", said.err);
-    assert!(said.err.contains("summary.json") && said.err.contains("--out"), "{}", said.err);
+    assert!(
+        said.err.contains("cannot replace")
+            && said.err.contains("summary.json")
+            && said.err.contains("--out"),
+        "{}",
+        said.err
+    );
     assert_eq!(folder.names("results"), ["summary.json"]);
 }
 
@@ -430,17 +436,19 @@ fn an_answer_that_cannot_be_written_out_is_not_a_success() {
 #[cfg(unix)]
 #[test]
 fn an_interrupted_run_leaves_no_half_results_and_spares_the_former_ones() {
-    use std::os::unix::process::ExitStatusExt;
     let folder = with_mission(&SMALL.replace("duration_s = 1.0", "duration_s = 5000.0"));
     let interrupt = || {
         let mut command = folder.command(&["run", "mission.toml"]);
-        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
         std::thread::sleep(Duration::from_millis(300));
         assert!(child.try_wait().unwrap().is_none(), "over before it could be interrupted");
         let id = child.id().to_string();
         let told = std::process::Command::new("kill").args(["-INT", &id]).status().unwrap();
         assert!(told.success());
-        assert_eq!(child.wait().unwrap().signal(), Some(2));
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(output.status.code(), Some(130));
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(said.contains("interrupted: nothing is kept"), "{said}");
     };
     interrupt();
     assert_eq!(folder.names(""), ["mission.toml"]);

@@ -1,5 +1,6 @@
 //! A parsed file that remembers where each value stands.
 
+use crate::json;
 use crate::positioned::{self, Entry, Positioned, Table, Value};
 use crate::schema_walk::Walk;
 use crate::{Complaint, Severity, Source};
@@ -81,6 +82,18 @@ impl Document {
         let root = positioned::parse(source)?;
         Ok(Self { source: Arc::clone(source), root })
     }
+    /// The document of a JSON text: one object.
+    ///
+    /// # Errors
+    /// Where the text is not JSON; every key that an object has twice, and every null.
+    pub fn parse_json(
+        path: impl Into<PathBuf>,
+        text: impl Into<String>,
+    ) -> Result<Self, Vec<Complaint>> {
+        let source = Source::new(path, text);
+        let root = json::parse(&source)?;
+        Ok(Self { source, root })
+    }
     /// The text and its path.
     pub fn source(&self) -> &Arc<Source> {
         &self.source
@@ -95,6 +108,10 @@ impl Document {
         if !complaints.is_empty() {
             return Err(complaints);
         }
+        self.deserialized()
+    }
+    /// The document as a `T` whose shape it has.
+    pub(crate) fn deserialized<T: DeserializeOwned>(&self) -> Result<T, Vec<Complaint>> {
         let table = positioned::without_positions(&self.root);
         T::deserialize(table).map_err(|error| {
             let one_line = error.to_string().trim().replace('\n', ", ");

@@ -25,14 +25,21 @@
 
 mod complaint;
 mod document;
+mod excerpt;
 mod in_part;
+mod json;
 mod positioned;
+mod read_text;
 mod render;
+mod repairs;
 mod schema_walk;
 mod suggestion;
+mod visible;
 
 pub use complaint::{Complaint, Severity, Source};
 pub use document::{Document, Step, schema_of};
-pub use in_part::Part;
+pub use in_part::{Part, UNKNOWN};
+pub use read_text::{MOST_BYTES, Unreadable, read_text};
 pub use render::render;
 pub use suggestion::closest;
+pub use visible::{visible, visible_json, visible_lines};

@@ -1,7 +1,8 @@
 //! A TOML document as a tree whose every value knows where it stands.
 
+use crate::excerpt::Lines;
 use crate::{Complaint, Source};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::Arc;
 use toml::de::{DeTable, DeValue};
@@ -65,18 +66,14 @@ pub(crate) fn parse(source: &Arc<Source>) -> Result<Table, Vec<Complaint>> {
 
 /// One complaint for each line: what follows on the same line follows from the first.
 fn syntax_complaints(source: &Arc<Source>, errors: &[toml::de::Error]) -> Vec<Complaint> {
-    let mut seen = Vec::new();
+    let lines = Lines::of(&source.text);
+    let mut seen = BTreeSet::new();
     let mut complaints = Vec::new();
     for error in errors {
         let span = error.span();
-        let line = span.as_ref().map(|s| {
-            let end = s.start.min(source.text.len());
-            source.text.bytes().take(end).filter(|b| *b == b'\n').count()
-        });
-        if seen.contains(&line) {
+        if !seen.insert(span.as_ref().map(|s| lines.number(s.start))) {
             continue;
         }
-        seen.push(line);
         let complaint = Complaint::error(source, format!("not TOML: {}", error.message()));
         let Some(span) = span else {
             complaints.push(complaint);

@@ -1,12 +1,17 @@
 //! Complaints as a compiler prints them.
 
+use crate::excerpt::{Excerpt, Lines};
+use crate::visible::visible;
 use crate::{Complaint, Severity, Source};
-use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use annotate_snippets::{AnnotationKind, Level, Origin, Renderer, Snippet};
 use std::fmt::Write as _;
-use std::ops::Range;
 use std::sync::Arc;
 
-/// All complaints as text, errors first, each file in its order, and a last line that counts them.
+/// Complaints that are shown one by one: whoever has mended so many reads the file again.
+const MOST: usize = 100;
+
+/// Complaints as text, errors first, each file in its order, and a last line that counts them; of more
+/// than a hundred the first hundred. No character of a file is obeyed by a terminal.
 ///
 /// With `colour`, the text carries terminal colours.
 pub fn render(complaints: &[Complaint], colour: bool) -> String {
@@ -14,10 +19,21 @@ pub fn render(complaints: &[Complaint], colour: bool) -> String {
         return String::new();
     }
     let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
+    let mut files: Vec<(&Arc<Source>, Lines)> = vec![];
     let mut text = String::new();
-    for complaint in in_order(complaints) {
-        text.push_str(&renderer.render(&[group(complaint)]));
+    for complaint in in_order(complaints).into_iter().take(MOST) {
+        let known = files.iter().position(|(file, _)| same(file, &complaint.source));
+        let file = known.unwrap_or_else(|| {
+            files.push((&complaint.source, Lines::of(&complaint.source.text)));
+            files.len() - 1
+        });
+        text.push_str(&rendered(complaint, &files[file].1, &renderer));
         text.push_str("\n\n");
+    }
+    if complaints.len() > MOST {
+        let rest = complaints.len() - MOST;
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "the first {MOST} are shown, {rest} more are not");
     }
     text.push_str(&count(complaints));
     text
@@ -45,40 +61,36 @@ fn in_order(complaints: &[Complaint]) -> Vec<&Complaint> {
 }
 
 fn same(a: &Arc<Source>, b: &Arc<Source>) -> bool {
-    Arc::ptr_eq(a, b) || a.path == b.path
+    Arc::ptr_eq(a, b) || (a.path == b.path && a.text == b.text)
 }
 
-fn group(complaint: &Complaint) -> Group<'_> {
+fn rendered(complaint: &Complaint, lines: &Lines, renderer: &Renderer) -> String {
     let level = match complaint.severity {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
         Severity::Note => Level::NOTE,
     };
     let path = complaint.source.path.to_string_lossy();
-    let title = level.primary_title(&*complaint.message);
-    let group = match &complaint.span {
-        Some(span) => title.element(
-            Snippet::source(&*complaint.source.text).path(path).annotation(
-                AnnotationKind::Primary
-                    .span(printable(&complaint.source.text, span))
-                    .label(&*complaint.label),
-            ),
-        ),
-        None => title.element(Origin::path(path)),
+    let path = visible(&path);
+    let title = level.primary_title(visible(&complaint.message));
+    let excerpt = complaint.span.as_ref().map(|s| lines.excerpt(&complaint.source.text, s));
+    let group = match &excerpt {
+        Some(Excerpt { line, text, span, .. }) => {
+            let place = AnnotationKind::Primary.span(span.clone()).label(visible(&complaint.label));
+            title.element(Snippet::source(text).path(&*path).line_start(*line).annotation(place))
+        }
+        None => title.element(Origin::path(&*path)),
     };
-    match &complaint.help {
-        Some(help) => group.element(Level::HELP.message(&**help)),
+    let group = match &complaint.help {
+        Some(help) => group.element(Level::HELP.message(visible(help))),
         None => group,
-    }
-}
-
-/// The span within the text, on whole characters, and no longer than its first line.
-fn printable(text: &str, span: &Range<usize>) -> Range<usize> {
-    let whole = |at: &usize| text.is_char_boundary(*at);
-    let start = (0..=span.start.min(text.len())).rev().find(whole).unwrap_or(0);
-    let end = (span.end.clamp(start, text.len())..=text.len()).find(whole).unwrap_or(start);
-    let line = text[start..end].find(['\n', '\r']).unwrap_or(end - start);
-    start..start + line
+    };
+    let drawn = renderer.render(&[group]);
+    let Some(Excerpt { line, column, text, span }) = excerpt else { return drawn };
+    // Escapes before the place move it in what is drawn, not in the file.
+    let shown = text[..span.start].chars().count() + 1;
+    let [drawn_at, stands_at] = [shown, column].map(|column| format!("{path}:{line}:{column}"));
+    if shown == column { drawn } else { drawn.replacen(&drawn_at, &stands_at, 1) }
 }
 
 /// "2 errors, 1 warning".

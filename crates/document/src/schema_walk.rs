@@ -1,6 +1,8 @@
 //! A document beside its JSON Schema: all that is wrong with its shape, at once.
 
+use crate::in_part::UNKNOWN;
 use crate::positioned::{Positioned, Table, Value};
+use crate::repairs::{Repairs, stand_in};
 use crate::suggestion::{closest, differ_in_unit};
 use crate::{Complaint, Source};
 use serde_json::Value as Schema;
@@ -13,25 +15,15 @@ pub(crate) struct Walk<'a> {
     /// The whole schema, for references into it.
     whole: &'a Schema,
     pub(crate) complaints: Vec<Complaint>,
-    /// Unknown keys, by their place, and the keys that were meant.
-    pub(crate) meant: Vec<(Range<usize>, String)>,
-    /// Wrong values, by their place, and right ones that can stand there while the rest is checked.
-    pub(crate) stand_ins: Vec<(Range<usize>, Value)>,
-    /// Missing keys, by the place of their table (none for the whole file), and values for them.
-    pub(crate) missing: Vec<(Option<Range<usize>>, String, Value)>,
+    /// What can stand in for what is wrong while the rest is checked.
+    pub(crate) repairs: Repairs,
 }
 
 impl<'a> Walk<'a> {
     /// The walk over a whole document: all complaints, in the order of the file.
     pub(crate) fn over(source: &'a Arc<Source>, schema: &'a Schema, root: &Table) -> Self {
-        let mut walk = Self {
-            source,
-            whole: schema,
-            complaints: Vec::new(),
-            meant: Vec::new(),
-            stand_ins: Vec::new(),
-            missing: Vec::new(),
-        };
+        let mut walk =
+            Self { source, whole: schema, complaints: Vec::new(), repairs: Repairs::default() };
         walk.table(schema, "the file", None, root);
         walk.complaints.sort_by_key(|c| c.span.as_ref().map_or(usize::MAX, |s| s.start));
         walk
@@ -72,8 +64,7 @@ impl<'a> Walk<'a> {
             (_, []) => {
                 let wanted = list_of(options.iter().map(|o| wanted(o)), "or");
                 let message = format!("{name} must be {wanted}, found {}", item.value.kind());
-                let stand_in = options.iter().find_map(|option| stand_in(option));
-                self.stand_ins.extend(stand_in.map(|value| (item.span.clone(), value)));
+                self.replace(&options, &item.span);
                 let help = description(schema).or_else(|| description(self.resolved(schema)));
                 self.complain(item.span.clone(), message, "wrong type").help = help;
             }
@@ -97,6 +88,7 @@ impl<'a> Walk<'a> {
                 }
                 if word.is_empty() && schema["minLength"].as_u64() > Some(0) {
                     self.complain(item.span.clone(), format!("{name} must not be empty"), "empty");
+                    self.repairs.replace(&item.span, Value::String(UNKNOWN.to_owned()));
                 }
             }
             Value::Float(number) => self.number(schema, name, *number, &item.span),
@@ -104,11 +96,12 @@ impl<'a> Walk<'a> {
             Value::Boolean(_) | Value::Datetime(_) => {}
         }
     }
-    fn number(&mut self, schema: &Schema, name: &str, found: f64, span: &Range<usize>) {
+    fn number(&mut self, schema: &'a Schema, name: &str, found: f64, span: &Range<usize>) {
         if !found.is_finite() {
             let message = format!("{name} is not a finite number, found {found}");
             self.complain(span.clone(), message, "not finite");
-            self.stand_ins.push((span.clone(), Value::Float(1.0)));
+            self.replace(&[schema], span);
+            return;
         }
         for (bound, words, broken) in [
             ("minimum", "at least", (|x, b| x < b) as fn(f64, f64) -> bool),
@@ -119,6 +112,7 @@ impl<'a> Walk<'a> {
             if let Some(limit) = schema[bound].as_f64().filter(|limit| broken(found, *limit)) {
                 let message = format!("{name} must be {words} {limit}, found {found}");
                 self.complain(span.clone(), message, "out of range");
+                self.replace(&[schema], span);
             }
         }
     }
@@ -129,8 +123,9 @@ impl<'a> Walk<'a> {
         let all = list_of(words.iter().map(|w| format!("\"{w}\"")), "or");
         let message = format!("{name} must be {all}, found \"{found}\"");
         let close = closest(found, words.iter().copied());
-        let stand_in = close.or(words.first().copied()).map(|w| Value::String(w.to_owned()));
-        self.stand_ins.extend(stand_in.map(|value| (span.clone(), value)));
+        if let Some(word) = close.or(words.first().copied()) {
+            self.repairs.replace(span, Value::String(word.to_owned()));
+        }
         let help = close.map(|w| format!("did you mean \"{w}\"?"));
         self.complain(span.clone(), message, "not one of these").help = help;
     }
@@ -146,6 +141,7 @@ impl<'a> Walk<'a> {
             };
             let message = format!("{name} must have {wanted} values, found {found}");
             self.complain(span.clone(), message, "wrong number of values");
+            self.replace(&[schema], span);
         }
         for (i, item) in items.iter().enumerate() {
             let of_item = schema["prefixItems"].get(i).or_else(|| schema.get("items"));
@@ -167,7 +163,16 @@ impl<'a> Walk<'a> {
         for (key, entry) in table {
             let known = properties.and_then(|all| all.get(key));
             match known.or(others.filter(|o| o.is_object())) {
-                Some(schema) => self.value(schema, &format!("`{key}`"), &entry.item),
+                Some(of_key) => {
+                    let before = self.complaints.len();
+                    self.value(of_key, &format!("`{key}`"), &entry.item);
+                    if self.complaints.len() > before
+                        && !is_required(schema, key)
+                        && !holds_tables(&entry.item.value)
+                    {
+                        self.repairs.leave_out(&entry.item);
+                    }
+                }
                 None if others == Some(&Schema::Bool(true)) || properties.is_none() => {}
                 None => meant.extend(self.unknown_key(schema, name, table, key)),
             }
@@ -186,14 +191,17 @@ impl<'a> Walk<'a> {
             }
         }
     }
-    /// Find a value for a missing key. Names are only made up for the file as a whole: elsewhere
-    /// something else may refer to them.
+    /// Find a value for a missing key.
     fn stand_in_for(&mut self, schema: &'a Schema, key: &str, span: Option<&Range<usize>>) {
         let options = self.choice(&schema["properties"][key]);
-        let any = options.iter().find_map(|option| stand_in(option));
-        let name = span.is_none().then(|| Value::String("?".into()));
-        if let Some(value) = any.or(name) {
-            self.missing.push((span.cloned(), key.to_owned(), value));
+        if let Some(value) = stand_in(&options, &|schema| self.choice(schema)) {
+            self.repairs.add(span, key, value);
+        }
+    }
+    /// Let a value of one of some shapes stand where a wrong one does.
+    fn replace(&mut self, options: &[&'a Schema], place: &Range<usize>) {
+        if let Some(value) = stand_in(options, &|schema| self.choice(schema)) {
+            self.repairs.replace(place, value);
         }
     }
     /// Says so, and answers with the key that was meant, if there is one like it.
@@ -219,7 +227,9 @@ impl<'a> Walk<'a> {
         };
         let message = format!("unknown key `{key}` in {name}");
         let span = table[key].key_span.clone();
-        self.meant.extend(meant.map(|meant| (span.clone(), meant.to_owned())));
+        if let Some(meant) = meant {
+            self.repairs.rename(&span, meant);
+        }
         self.complain(span, message, "unknown key").help = Some(help);
         meant
     }
@@ -244,10 +254,12 @@ impl<'a> Walk<'a> {
                         .map(|meant| format!("did you mean `{meant}`?"));
                     self.complain(entry.key_span.clone(), message, "unknown key").help = help;
                 }
+                self.replace(shapes, &item.span);
             }
             (_, found) => {
                 let message = format!("{name} must have one key, {all}, found {found}");
                 self.complain(item.span.clone(), message, "exactly one key");
+                self.replace(shapes, &item.span);
             }
         }
     }
@@ -267,16 +279,20 @@ impl<'a> Walk<'a> {
                 let message = format!("{name} has no `{tag}`");
                 self.complain(item.span.clone(), message, "which kind?").help =
                     Some(format!("`{tag}` is {all}"));
+                self.replace(shapes, &item.span);
             }
             Some((Value::String(word), span)) => {
-                match shapes.iter().find(|s| word_of(s) == Some(word)) {
-                    Some(shape) => self.table(shape, name, Some(&item.span), table),
-                    None => self.word(&words, &format!("`{tag}`"), word, span),
+                if let Some(shape) = shapes.iter().find(|s| word_of(s) == Some(word)) {
+                    self.table(shape, name, Some(&item.span), table);
+                } else {
+                    self.word(&words, &format!("`{tag}`"), word, span);
+                    self.replace(shapes, &item.span);
                 }
             }
             Some((other, span)) => {
                 let message = format!("`{tag}` must be a string, found {}", other.kind());
                 self.complain(span.clone(), message, "wrong type");
+                self.replace(shapes, &item.span);
             }
         }
     }
@@ -287,28 +303,28 @@ impl<'a> Walk<'a> {
                 source: self.source,
                 whole: self.whole,
                 complaints: vec![],
-                meant: vec![],
-                stand_ins: vec![],
-                missing: vec![],
+                repairs: Repairs::default(),
             };
             walk.shape(shape, name, item);
-            walk.complaints
+            (walk.complaints, walk.repairs)
         });
-        let best = attempts.min_by_key(Vec::len).unwrap_or_default();
-        self.complaints.extend(best);
+        if let Some((complaints, repairs)) = attempts.min_by_key(|(found, _)| found.len()) {
+            self.complaints.extend(complaints);
+            self.repairs.take(repairs);
+        }
     }
 }
 
-/// A value that a schema allows, where one is as good as another: a number, a flag, a word of a list.
-fn stand_in(schema: &Schema) -> Option<Value> {
-    if let Some(word) = words(schema).and_then(|words| words.first().copied()) {
-        return Some(Value::String(word.to_owned()));
-    }
-    match schema["type"].as_str()? {
-        "number" => Some(Value::Float(1.0)),
-        "integer" => Some(Value::Integer(1)),
-        "boolean" => Some(Value::Boolean(false)),
-        _ => None,
+fn is_required(schema: &Schema, key: &str) -> bool {
+    schema["required"].as_array().is_some_and(|all| all.iter().any(|name| name == key))
+}
+
+/// Whether a value is a table, or a list with tables in it.
+fn holds_tables(value: &Value) -> bool {
+    match value {
+        Value::Table(_) => true,
+        Value::Array(items) => items.iter().any(|item| holds_tables(&item.value)),
+        _ => false,
     }
 }
 

@@ -88,10 +88,39 @@ pub(crate) struct RowFile {
     pub(crate) set: BTreeMap<String, serde_json::Value>,
 }
 
-/// An attitude as a unit quaternion, from the axes of the thing to those it is measured in.
+/// An attitude, from the axes of the thing to those it is measured in: `{ rpy_deg = [roll, pitch, yaw] }`
+/// or a unit quaternion, `{ w = …, x = …, y = …, z = … }` or `{ quaternion = { … } }`.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub(crate) enum AttitudeFile {
+    /// Turns about the fixed axes of what it is measured in, roll first (deg).
+    Angles(AnglesFile),
+    /// A unit quaternion.
+    Parts(QuaternionFile),
+    /// A unit quaternion, written as in a vehicle file.
+    Quaternion(UnderQuaternionFile),
+}
+
+/// Roll, pitch and yaw.
 #[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct AttitudeFile {
+pub(crate) struct AnglesFile {
+    /// Roll, pitch, yaw (deg): turns about fixed axes, roll first.
+    pub(crate) rpy_deg: [f64; 3],
+}
+
+/// A unit quaternion under its name.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct UnderQuaternionFile {
+    /// The quaternion.
+    pub(crate) quaternion: QuaternionFile,
+}
+
+/// A unit quaternion.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct QuaternionFile {
     /// Scalar part.
     pub(crate) w: f64,
     /// First component of the vector part.

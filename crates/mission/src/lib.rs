@@ -14,6 +14,7 @@ mod dispersion_format;
 mod figures;
 mod flight;
 mod fly;
+mod folder_name;
 mod format;
 mod gripping;
 mod limits_passed;

@@ -1,6 +1,7 @@
 //! A mission file to a checked mission, with all complaints at once.
 
 use crate::dispersible::Nominal;
+use crate::folder_name::wrong_with_folder_name;
 use crate::format::MissionFile;
 use crate::mission::{Case, Mission, PayloadCase, PhaseCase, Study};
 use crate::phase_format::PhaseFile;
@@ -16,12 +17,13 @@ use crate::reading::Reading;
 use crate::requirement::Requirement;
 use crate::sampled_loops::check_loops;
 use crate::sampling::{Sampling, check_sampling};
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 use wrasse_document::{Complaint, Document, Severity, Step, at, schema_of};
 use wrasse_dynamics::JointKind;
 use wrasse_flight::PHASES;
-use wrasse_vehicle::{NoVehicle, Vehicle, find_vehicle};
+use wrasse_vehicle::{CatalogueEntry, NoVehicle, Vehicle, find_vehicle};
 
 /// The JSON Schema of mission files, for editors.
 pub fn mission_schema() -> serde_json::Value {
@@ -65,12 +67,12 @@ pub fn read_mission(
         }
     }
     // What is wrong with the common part is wrong in every case: say it once.
-    let mut once: Vec<Complaint> = vec![];
-    for complaint in document.beside(part.complaints, complaints) {
-        if !once.contains(&complaint) {
-            once.push(complaint);
-        }
-    }
+    let mut said = BTreeSet::new();
+    let mut once = document.beside(part.complaints, complaints);
+    once.retain(|c| {
+        let place = c.span.as_ref().map(|span| (span.start, span.end));
+        said.insert((c.source.path.clone(), place, c.message.clone(), c.help.clone()))
+    });
     if once.iter().any(|c| c.severity == Severity::Error) {
         return Err(once);
     }
@@ -93,10 +95,8 @@ fn combinations(
     document: &Document,
     complaints: &mut Vec<Complaint>,
 ) -> Vec<Vec<(usize, usize)>> {
-    let fits = file.name.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '_');
-    if file.name.is_empty() || !fits {
-        let message = format!("the name becomes a folder: found {:?}", file.name);
-        let help = "use letters, digits, dashes and underscores";
+    if let Some((problem, help)) = wrong_with_folder_name(&file.name) {
+        let message = format!("the name becomes a folder: {problem}");
         complaints.push(document.error(at!["name"], message, "here").with_help(help));
     }
     let mut all = vec![vec![]];
@@ -154,9 +154,8 @@ fn read_case(
     labels: Vec<(String, String)>,
 ) -> Result<(Case, Vec<Complaint>), Vec<Complaint>> {
     let file: MissionFile = document.read()?;
-    let vehicle = vehicle_of(&file, document)?;
-    let mut reading =
-        Reading { document, complaints: vec![], vehicle: &vehicle, knows_actuators: true };
+    let (vehicle, complaints) = vehicle_of(&file, document)?;
+    let mut reading = Reading { document, complaints, vehicle: &vehicle, knows_actuators: true };
     let r = &mut reading;
     let start = start(r, &file);
     let equipment = equipment(r, &file);
@@ -242,15 +241,25 @@ fn requirements(r: &mut Reading<'_>, file: &MissionFile) -> (Vec<Quantity>, Vec<
     (quantities, requirements)
 }
 
-fn vehicle_of(file: &MissionFile, document: &Document) -> Result<Vehicle, Vec<Complaint>> {
+/// The vehicle, or the one that is meant, with a complaint: the rest is checked with it.
+fn vehicle_of(
+    file: &MissionFile,
+    document: &Document,
+) -> Result<(Vehicle, Vec<Complaint>), Vec<Complaint>> {
     let folder = document.source().path.parent();
-    find_vehicle(&file.vehicle, folder).map_err(|none| match none {
-        NoVehicle::NotFound { message, help } => {
-            vec![document.error(at!["vehicle"], message, "this vehicle").with_help(help)]
+    match find_vehicle(&file.vehicle, folder) {
+        Ok(vehicle) => Ok((vehicle, vec![])),
+        Err(NoVehicle::NotFound { message, help, meant }) => {
+            let said =
+                vec![document.error(at!["vehicle"], message, "this vehicle").with_help(help)];
+            match meant.map(CatalogueEntry::read) {
+                Some(Ok(vehicle)) => Ok((vehicle, said)),
+                _ => Err(said),
+            }
         }
-        NoVehicle::Faulty(complaints) => complaints,
-        _ => vec![document.error(at!["vehicle"], "this vehicle cannot be read", "here")],
-    })
+        Err(NoVehicle::Faulty(complaints)) => Err(complaints),
+        Err(_) => Err(vec![document.error(at!["vehicle"], "this vehicle cannot be read", "here")]),
+    }
 }
 
 /// What happens, one after the other.

@@ -1,7 +1,8 @@
 //! The start, the world and the laws, out of a mission file.
 
 use crate::format::{
-    ArmLawFile, AttitudeFile, BaseFile, JointsFile, MeasurementFile, MissionFile, TaskFile,
+    ArmLawFile, AttitudeFile, BaseFile, JointsFile, MeasurementFile, MissionFile, QuaternionFile,
+    TaskFile,
 };
 use crate::phase_format::AxesFile;
 use crate::reading::Reading;
@@ -14,7 +15,7 @@ use wrasse_flight::{
 };
 use wrasse_hardware::JointLimits;
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Vec3};
-use wrasse_vehicle::JOINTS;
+use wrasse_vehicle::{JOINTS, from_rpy_deg};
 use wrasse_world::{BaseAttitude, Stepper};
 
 /// A unit quaternion; an error if it is not one.
@@ -23,7 +24,14 @@ pub(crate) fn attitude(
     path: &[Step<'_>],
     file: Option<AttitudeFile>,
 ) -> Quat<f64> {
-    let Some(AttitudeFile { w, x, y, z }) = file else { return Quat::identity() };
+    let QuaternionFile { w, x, y, z } = match file {
+        None => return Quat::identity(),
+        Some(AttitudeFile::Angles(angles)) => {
+            return Quat::from_matrix(&from_rpy_deg(angles.rpy_deg));
+        }
+        Some(AttitudeFile::Parts(parts)) => parts,
+        Some(AttitudeFile::Quaternion(under)) => under.quaternion,
+    };
     let quat = Quat { w, x, y, z };
     let norm = quat.norm();
     if (norm - 1.0).abs() > 1e-6 {

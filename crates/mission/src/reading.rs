@@ -1,6 +1,6 @@
 //! A reader's view of one case: the document, the vehicle, and what it found wrong.
 
-use wrasse_document::{Complaint, Document, Step, closest};
+use wrasse_document::{Complaint, Document, Step, UNKNOWN, closest};
 use wrasse_dynamics::JointKind;
 use wrasse_vehicle::Vehicle;
 
@@ -31,7 +31,13 @@ impl Reading<'_> {
         name: &str,
         among: &[String],
     ) -> Option<usize> {
-        let found = among.iter().position(|n| n == name);
+        let made_up = |n: &String| n == UNKNOWN;
+        let found = match among.iter().position(|n| n == name) {
+            // A name that is left out may be any.
+            None if name == UNKNOWN => (!among.is_empty()).then_some(0),
+            None => among.iter().position(made_up),
+            found => found,
+        };
         if found.is_none() {
             let help = match closest(name, among.iter().map(String::as_str)) {
                 Some(close) => format!("did you mean {close:?}?"),

@@ -3,7 +3,7 @@
 use crate::outcome::Verdict;
 use crate::quantity::{Quantity, Statistic, Watch, is_unit};
 use std::ops::Range;
-use wrasse_document::closest;
+use wrasse_document::{UNKNOWN, closest};
 
 /// How a value compares with its limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -163,7 +163,9 @@ fn find_phase(
     if name.is_empty() {
         return Err(bad("the phase is missing behind during".into(), during, names()));
     }
-    phases.iter().position(|p| p == name).ok_or_else(|| {
+    // A phase whose name is left out may be any.
+    let made_up = || phases.iter().position(|p| p == UNKNOWN);
+    phases.iter().position(|p| p == name).or_else(made_up).ok_or_else(|| {
         let help = match closest(name, phases.iter().map(String::as_str)) {
             Some(close) => format!("did you mean {close}?"),
             None => names(),

@@ -11,6 +11,7 @@ mod ledger_rests;
 mod markup;
 mod numbers;
 mod parquet_file;
+mod place;
 mod plots;
 mod report;
 mod results;
@@ -29,6 +30,7 @@ mod sweep_tables;
 mod tables;
 
 pub use parquet_file::telemetry_parquet;
+pub use place::prepare_place;
 pub use report::report_html;
 pub use results::{RecordError, Written, write_results};
 pub use study_report::study_html;

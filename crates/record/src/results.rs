@@ -1,11 +1,11 @@
 //! The three files of a run, put in place together or not at all.
 
-use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use wrasse_mission::Outcome;
 
+use crate::place::put_files;
 use crate::{report_html, summary_json, telemetry_parquet};
 
 /// Why results could not be written.
@@ -67,8 +67,8 @@ const NAMES: [&str; 3] = ["report.html", "telemetry.parquet", "summary.json"];
 
 /// Writes `report.html`, `telemetry.parquet` and `summary.json` into `dir`, which is made if need be.
 ///
-/// All are encoded in memory and staged beside their places before the first is put there; if one
-/// cannot be, the former result is put back.
+/// All are encoded in memory and written beside their place before they take it together; if that
+/// cannot be, the former result stays.
 ///
 /// # Errors
 /// A place that cannot be written, or telemetry whose channels do not fit together.
@@ -82,70 +82,4 @@ pub fn write_results(outcome: &Outcome, dir: &Path) -> Result<Written, RecordErr
     put_files(&files, dir)?;
     let [report, telemetry, summary] = NAMES.map(|name| dir.join(name));
     Ok(Written { report, telemetry, summary })
-}
-
-/// Names and contents of files, put into `dir` together or not at all, the last one last.
-pub(crate) fn put_files(files: &[(&str, Vec<u8>)], dir: &Path) -> Result<(), RecordError> {
-    fs::create_dir_all(dir).map_err(|source| refused("create the directory", dir, source))?;
-    let staging = tempfile::Builder::new()
-        .prefix(".wrasse-")
-        .tempdir_in(dir)
-        .map_err(|source| refused("write into", dir, source))?;
-    for (name, content) in files {
-        let path = staging.path().join(name);
-        write_durably(&path, content).map_err(|source| refused("write", &path, source))?;
-    }
-    let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
-    put_in_place(&names, staging.path(), dir)
-}
-
-fn refused(doing: &'static str, path: &Path, source: io::Error) -> RecordError {
-    RecordError::File { doing, path: path.to_owned(), source }
-}
-
-/// Writes a file and waits until the disk has it, so that a rename never outruns its contents.
-fn write_durably(path: &Path, content: &[u8]) -> io::Result<()> {
-    let mut file = File::create(path)?;
-    file.write_all(content)?;
-    file.sync_all()
-}
-
-/// Sets the former files aside, last first, then puts the new ones in their places.
-fn put_in_place(names: &[&str], staging: &Path, dir: &Path) -> Result<(), RecordError> {
-    let mut aside = Vec::new();
-    for name in names.iter().rev() {
-        let place = dir.join(name);
-        let Ok(former) = place.symlink_metadata() else {
-            continue;
-        };
-        // A directory of this name is somebody's, not a former result.
-        let moved = if former.is_dir() {
-            Err(io::ErrorKind::IsADirectory.into())
-        } else {
-            fs::rename(&place, staging.join(format!("former-{name}")))
-        };
-        if let Err(source) = moved {
-            put_back(&aside, staging, dir);
-            return Err(refused("replace", &place, source));
-        }
-        aside.push(*name);
-    }
-    for name in names {
-        if let Err(source) = fs::rename(staging.join(name), dir.join(name)) {
-            // The new ones that are in place already are not to stay without the others.
-            for new in names.iter().take_while(|new| *new != name) {
-                let _ = fs::remove_file(dir.join(new));
-            }
-            put_back(&aside, staging, dir);
-            return Err(refused("write", &dir.join(name), source));
-        }
-    }
-    Ok(())
-}
-
-/// Best effort after a failure: what cannot be put back has no better place to go.
-fn put_back(aside: &[&str], staging: &Path, dir: &Path) {
-    for name in aside.iter().rev() {
-        let _ = fs::rename(staging.join(format!("former-{name}")), dir.join(name));
-    }
 }

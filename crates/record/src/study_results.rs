@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 use wrasse_study::StudyOutcome;
 
-use crate::results::{RecordError, put_files};
+use crate::place::put_files;
+use crate::results::RecordError;
 use crate::study_report::study_html;
 
 /// Version of the summary's layout; it rises when a key changes its meaning or goes away.

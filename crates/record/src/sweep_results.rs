@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 use wrasse_sweep::SweepOutcome;
 
-use crate::results::{RecordError, put_files};
+use crate::place::put_files;
+use crate::results::RecordError;
 use crate::sweep_parquet::samples_parquet;
 use crate::sweep_report::sweep_html;
 

@@ -1,5 +1,6 @@
 //! The verdicts as plain text, for the terminal.
 
+use wrasse_document::visible;
 use wrasse_mission::{CaseOutcome, End, Event, EventKind, Ledger, Outcome, Verdict};
 
 use crate::comparison::{Comparison, case_name, comparison, judged, reason};
@@ -251,9 +252,9 @@ pub(crate) fn aligned(rows: &[Vec<String>], sides: &[Side]) -> String {
     text
 }
 
-/// Without control characters: a name in a file is not to move the cursor.
+/// Without characters that a terminal obeys: a name in a file is not to move the cursor.
 pub(crate) fn printable(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
+    visible(text).into_owned()
 }
 
 #[cfg(test)]
@@ -268,7 +269,7 @@ mod tests {
             aligned(&rows, &[Side::Left, Side::Right]),
             "a                 1\n\
              längere·name  -12.5\n\
-             x\u{fffd}[2J          3e-7\n"
+             x\\u{1b}[2J     3e-7\n"
         );
     }
 }

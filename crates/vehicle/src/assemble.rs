@@ -2,7 +2,6 @@
 //! body, seen from the frame of the link that the moving joint carries.
 
 use crate::assembly::{AssemblyJoint, Link};
-use crate::figures::figures;
 use crate::findings::Findings;
 use crate::physical::{check_joint, check_matter};
 use crate::plausible::{doubt_joint, doubt_mass, doubt_matter};
@@ -123,9 +122,6 @@ impl Parts {
             let message =
                 format!("the base has no mass: neither '{}' nor anything fixed to it", root.name);
             found.error(&root.at, message, "the base", "give it mass, centre of mass and inertia");
-        } else if whole <= 0.0 {
-            let message = format!("the whole vehicle has a mass of {} kg", figures(whole));
-            found.error(&root.at, message, "this vehicle", "its mass must be positive");
         }
         for (j, (edge, ..)) in self.moving.iter().enumerate() {
             let joint = &joints[edge.joint];
@@ -224,7 +220,7 @@ mod tests {
     #[test]
     fn no_reason_makes_a_vehicle_without_mass_or_with_numbers_that_are_not_finite() {
         for (mass, zz, told) in
-            [(-5.0, 1.0, "whole vehicle"), (f64::NAN, 1.0, "finite"), (5.0, f64::NAN, "finite")]
+            [(-5.0, 1.0, "found -5 kg"), (f64::NAN, 1.0, "finite"), (5.0, f64::NAN, "finite")]
         {
             let complaints = assembled(bus(mass, zz, Some("printed so"))).expect_err("an error");
             let errors: Vec<_> =

@@ -3,7 +3,7 @@
 use crate::read_vehicle::read_vehicle;
 use crate::vehicle::Vehicle;
 use std::path::{Path, PathBuf};
-use wrasse_document::{Complaint, closest};
+use wrasse_document::{Complaint, MOST_BYTES, closest, read_text};
 
 /// A vehicle of the catalogue. Its file is part of the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,6 +61,8 @@ pub enum NoVehicle {
         message: String,
         /// What to write instead.
         help: String,
+        /// The entry of the catalogue that is meant, as far as the name tells.
+        meant: Option<&'static CatalogueEntry>,
     },
     /// Its file has errors.
     Faulty(Vec<Complaint>),
@@ -81,23 +83,26 @@ pub fn find_vehicle(name_or_path: &str, relative_to: Option<&Path>) -> Result<Ve
         name_or_path.contains(['/', '\\']) || Path::new(name_or_path).extension().is_some();
     if !is_file {
         let message = format!("no vehicle of the catalogue is called \"{name_or_path}\"");
-        let help = match closest(name_or_path, names()) {
+        let close = closest(name_or_path, names());
+        let help = match close {
             Some(meant) => format!("did you mean \"{meant}\"?"),
             None => format!(
                 "the catalogue has {}; a file is named with its ending",
                 names().collect::<Vec<_>>().join(", ")
             ),
         };
-        return Err(NoVehicle::NotFound { message, help });
+        let meant = close.and_then(|close| catalogue().iter().find(|entry| entry.name == close));
+        return Err(NoVehicle::NotFound { message, help, meant });
     }
     let path =
         relative_to.map_or_else(|| PathBuf::from(name_or_path), |from| from.join(name_or_path));
-    let text = std::fs::read_to_string(&path).map_err(|error| NoVehicle::NotFound {
-        message: format!("cannot read the vehicle file {}: {error}", path.display()),
+    let text = read_text(&path, MOST_BYTES).map_err(|why| NoVehicle::NotFound {
+        message: format!("cannot read the vehicle file {}: {why}", path.display()),
         help: match relative_to {
             Some(_) => "the path is seen from the folder of the file that names it".into(),
             None => "is the path right?".into(),
         },
+        meant: None,
     })?;
     read_vehicle(path, text).map_err(NoVehicle::Faulty)
 }

@@ -4,17 +4,24 @@ use std::ops::Range;
 use std::sync::Arc;
 use wrasse_document::{Complaint, Severity, Source};
 
+/// Complaints that are shown of a file, and as many again for those that others come before.
+const MANY: usize = 200;
+
 /// Complaints about one file, in the order they were found.
 #[derive(Debug)]
 pub(crate) struct Findings {
     source: Arc<Source>,
+    /// Where the lines of the file begin.
+    lines: Vec<usize>,
     list: Vec<Complaint>,
 }
 
 impl Findings {
     /// None yet.
     pub(crate) fn new(source: &Arc<Source>) -> Self {
-        Self { source: Arc::clone(source), list: Vec::new() }
+        let ends = source.text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+        let lines = std::iter::once(0).chain(ends.map(|(at, _)| at + 1)).collect();
+        Self { source: Arc::clone(source), lines, list: Vec::new() }
     }
     /// The file cannot be used.
     pub(crate) fn error(&mut self, at: &Range<usize>, message: String, label: &str, help: &str) {
@@ -52,7 +59,12 @@ impl Findings {
     }
     /// Number of the line (from 1) on which a byte of the file stands.
     pub(crate) fn line(&self, byte: usize) -> usize {
-        1 + self.source.text.bytes().take(byte).filter(|&b| b == b'\n').count()
+        self.lines.partition_point(|begin| *begin <= byte).max(1)
+    }
+    /// Whether there are more than anybody reads: to look for what was meant by each takes the time of
+    /// all names, and is not worth it any more.
+    pub(crate) fn are_many(&self) -> bool {
+        self.list.len() > MANY
     }
     /// Whether the file can still be used.
     pub(crate) fn without_error(&self) -> bool {

@@ -51,6 +51,7 @@ pub use read_equipment::read_equipment;
 pub use read_sensors::read_sensors;
 pub use read_toml::vehicle_schema;
 pub use read_vehicle::read_vehicle;
+pub use rotation_in_degrees::from_rpy_deg;
 pub use sensor_format::SensorsFile;
 pub use vehicle::{
     Grade, JOINTS, NamedFrame, Posture, Provenance, Shape, ShapeKind, Vehicle, VehicleRobot,

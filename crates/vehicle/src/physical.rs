@@ -13,27 +13,24 @@ pub(crate) fn check_matter(link: &Link, found: &mut Findings) {
     if !check_finite(link, matter, found) {
         return;
     }
-    let mut impossible = 0;
-    let mut complain = |at, message: String, label: &str, help: &str| {
-        impossible += 1;
-        match &matter.accept_nonphysical {
-            None => found.error(at, message, label, help),
-            Some(reason) => {
-                let help = format!("used as it stands, because the file says: {reason}");
-                found.add(Severity::Warning, at, message, label, &help);
-            }
-        }
-    };
     let name = &link.name;
-    if matter.mass <= 0.0 {
+    let mut possible = matter.mass > 0.0;
+    if !possible {
         let message = format!("mass of '{name}' must be positive, found {} kg", matter.mass);
         let help = "leave out the mass properties of a link that is only a frame";
-        complain(&matter.mass_at, message, "this mass", help);
+        found.error(&matter.mass_at, message, "this mass", help);
     }
-    if let Some((message, help)) = wrong_with_inertia(name, matter.inertia) {
-        complain(&matter.inertia_at, message, "this inertia", help);
+    if let Some(Wrong { message, help, flies }) = wrong_with_inertia(name, matter.inertia) {
+        possible = false;
+        match matter.accept_nonphysical.as_ref().filter(|_| flies) {
+            None => found.error(&matter.inertia_at, message, "this inertia", help),
+            Some(reason) => {
+                let help = format!("used as it stands, because the file says: {reason}");
+                found.add(Severity::Warning, &matter.inertia_at, message, "this inertia", &help);
+            }
+        }
     }
-    if impossible == 0 && matter.accept_nonphysical.is_some() {
+    if possible && matter.accept_nonphysical.is_some() {
         let message =
             format!("'{name}' accepts non-physical mass properties, but its are possible");
         found.warning(&link.at, message, "this link", "leave out `accept_nonphysical`");
@@ -65,7 +62,14 @@ const IMPOSSIBLE: &str = "no rigid body is like this: is it about the centre of 
                           say `accept_nonphysical = \"reason\"` where published data are so";
 
 /// What a central inertia breaks, and how to mend it.
-fn wrong_with_inertia(name: &str, inertia: Sym3<f64>) -> Option<(String, &'static str)> {
+struct Wrong {
+    message: String,
+    help: &'static str,
+    /// Whether equations of motion can be solved with it all the same.
+    flies: bool,
+}
+
+fn wrong_with_inertia(name: &str, inertia: Sym3<f64>) -> Option<Wrong> {
     let moments = principal_moments(inertia);
     let [a, b, c] = moments;
     let shown = moments.map(figures).join(", ");
@@ -76,7 +80,7 @@ fn wrong_with_inertia(name: &str, inertia: Sym3<f64>) -> Option<(String, &'stati
         );
         let help = "give a small part the inertia of a ball, 0.4 m r²; \
                     check the signs of the products of inertia";
-        return Some((message, help));
+        return Some(Wrong { message, help, flies: false });
     }
     (c > (a + b) * (1.0 + ROUND_OFF)).then(|| {
         let message = format!(
@@ -84,7 +88,7 @@ fn wrong_with_inertia(name: &str, inertia: Sym3<f64>) -> Option<(String, &'stati
              kg·m² the largest exceeds the sum of the others by {} kg·m²",
             figures(c - a - b)
         );
-        (message, IMPOSSIBLE)
+        Wrong { message, help: IMPOSSIBLE, flies: true }
     })
 }
 

@@ -15,7 +15,7 @@ use crate::toml_reading::Reading;
 use crate::vehicle::{Posture, Shape, ShapeKind, Vehicle};
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use wrasse_document::{Complaint, Document, Source, Step, at, closest};
+use wrasse_document::{Complaint, Document, Source, Step, UNKNOWN, at, closest};
 use wrasse_dynamics::{Frame, JointKind};
 use wrasse_hardware::{AttitudeActuator, JointLimits, Sensors};
 use wrasse_spatial::{Pose, vec3};
@@ -42,7 +42,8 @@ fn vehicle_of(
     file: VehicleFile,
 ) -> Result<Vehicle, Vec<Complaint>> {
     let mut reading = Reading::new(document);
-    let (links, joints) = tree_of(&mut reading, &file);
+    let (mut links, mut joints) = tree_of(&mut reading, &file);
+    forget_made_up_names(&mut links, &mut joints);
     let outlines = outlines(&mut reading, &file);
     let attitude_actuator =
         file.attitude_actuator.as_ref().map(|given| actuator(&mut reading, given));
@@ -107,6 +108,16 @@ fn tree_of(reading: &mut Reading<'_>, file: &VehicleFile) -> (Vec<Link>, Vec<Ass
         joints.push(mount);
     }
     (links, joints)
+}
+
+/// A name that the file leaves out has had its complaint: in the tree it is empty.
+fn forget_made_up_names(links: &mut [Link], joints: &mut [AssemblyJoint]) {
+    let of_joints = joints.iter_mut().flat_map(|j| [&mut j.name, &mut j.parent, &mut j.child]);
+    for name in links.iter_mut().map(|link| &mut link.name).chain(of_joints) {
+        if name.contains(UNKNOWN) {
+            name.clear();
+        }
+    }
 }
 
 /// A tool is a massless link, fixed to its body.
@@ -180,6 +191,10 @@ fn check_position(
 ) {
     let name = path.last().map(ToString::to_string).unwrap_or_default();
     let Some((moves, travel)) = moving.get(name.as_str()) else {
+        // A joint whose name is left out may be meant.
+        if moving.contains_key("") {
+            return;
+        }
         let message = format!("no joint that moves is called '{name}'");
         let help = match closest(&name, moving.keys().copied()) {
             Some(meant) => format!("did you mean '{meant}'?"),

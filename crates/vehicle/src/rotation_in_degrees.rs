@@ -22,7 +22,7 @@ pub(crate) fn about_z(deg: f64) -> Mat3<f64> {
 
 /// `R_PB = Rz(yaw) Ry(pitch) Rx(roll)` from roll, pitch, yaw (deg): turns about the fixed axes of P,
 /// roll first.
-pub(crate) fn from_rpy_deg([roll, pitch, yaw]: [f64; 3]) -> Mat3<f64> {
+pub fn from_rpy_deg([roll, pitch, yaw]: [f64; 3]) -> Mat3<f64> {
     about_z(yaw) * about_y(pitch) * about_x(roll)
 }
 

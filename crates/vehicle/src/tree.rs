@@ -31,10 +31,12 @@ pub(crate) fn tree(links: &[Link], joints: &[AssemblyJoint], found: &mut Finding
     }
     let names = first_of_each_name("link", links.iter().map(|l| (&*l.name, &l.at)), found);
     first_of_each_name("joint", joints.iter().map(|j| (&*j.name, &j.at)), found);
-    let edges: Vec<_> = joints.iter().map(|j| ends(j, &names, found)).collect();
+    // A link whose name is left out may be any that a joint names.
+    let all_named = links.iter().all(|link| !link.name.is_empty());
+    let edges: Vec<_> = joints.iter().map(|j| ends(j, &names, all_named, found)).collect();
     let carriers = carriers(links, joints, &edges, found);
     let looped = complain_of_loops(links, joints, &edges, &carriers, found);
-    let roots = roots(joints, &names, &edges, &carriers);
+    let roots = roots(joints, &names, &edges, &carriers, found.are_many());
     if roots.len() > 1 {
         complain_of_roots(links, &roots, found);
     }
@@ -73,16 +75,18 @@ fn first_of_each_name<'a>(
 fn ends(
     joint: &AssemblyJoint,
     names: &BTreeMap<&str, usize>,
+    all_named: bool,
     found: &mut Findings,
 ) -> (Option<usize>, Option<usize>) {
     let mut place = |role: &str, name: &str, at: &Range<usize>| {
         let place = names.get(name).copied();
-        if place.is_none() && !name.is_empty() {
+        if place.is_none() && !name.is_empty() && all_named {
             let message = format!(
                 "joint '{}' has the {role} '{name}', but no link has that name",
                 joint.name
             );
-            let help = match closest(name, names.keys().copied()) {
+            let close = if found.are_many() { None } else { closest(name, names.keys().copied()) };
+            let help = match close {
                 Some(close) => format!("did you mean '{close}'?"),
                 None => format!("links are {}", listed(names.keys())),
             };
@@ -190,13 +194,15 @@ fn roots(
     names: &BTreeMap<&str, usize>,
     edges: &[(Option<usize>, Option<usize>)],
     carriers: &[Vec<usize>],
+    are_many: bool,
 ) -> Vec<usize> {
     let mut roots: Vec<_> = names.values().copied().filter(|&l| carriers[l].is_empty()).collect();
     roots.sort_unstable();
     let mut explained: usize = carriers.iter().map(|c| c.len().saturating_sub(1)).sum();
     let unknown = joints.iter().zip(edges).filter(|(_, (_, child))| child.is_none());
     for (joint, _) in unknown {
-        let meant = closest(&joint.child, names.keys().copied()).and_then(|name| names.get(name));
+        let guess = || closest(&joint.child, names.keys().copied());
+        let meant = if are_many { None } else { guess().and_then(|name| names.get(name)) };
         match roots.iter().position(|root| Some(root) == meant) {
             Some(place) => {
                 roots.remove(place);

@@ -1,9 +1,10 @@
 //! A `<link>`: its mass properties, and its visual boxes, cylinders and balls for drawings.
 
 use crate::assembly::{Link, Matter};
-use crate::urdf_element::{Element, Kind, Reading};
+use crate::urdf_element::{Element, Kind, Reading, tag_at};
 use crate::vehicle::ShapeKind;
 use roxmltree::Node;
+use std::ops::Range;
 use wrasse_spatial::{Pose, Sym3};
 
 const LINK: Kind = Kind {
@@ -130,6 +131,7 @@ impl Reading<'_> {
         let outline_box = geometry.only("box", self);
         let cylinder = geometry.only("cylinder", self);
         let sphere = geometry.only("sphere", self);
+        let drawn = outline_box.or(cylinder).or(sphere)?;
         let kind = if let Some(node) = outline_box {
             let element = self.open(node, &BOX);
             element.required("size", self)?;
@@ -143,6 +145,24 @@ impl Reading<'_> {
             let element = self.open(sphere?, &SPHERE);
             self.required_number(&element, "radius").map(ShapeKind::Sphere)
         }?;
-        Some((X_LF, kind))
+        self.has_extent(&tag_at(drawn, self.text), kind).then_some((X_LF, kind))
+    }
+
+    /// Whether a shape can be drawn: complains of negative sizes, and warns of sizes that are zero.
+    fn has_extent(&mut self, at: &Range<usize>, kind: ShapeKind) -> bool {
+        let sizes = match kind {
+            ShapeKind::Box(edges) => edges.to_array().to_vec(),
+            ShapeKind::Cylinder { radius, length } => vec![radius, length],
+            ShapeKind::Sphere(radius) => vec![radius],
+        };
+        let least = sizes.into_iter().fold(f64::INFINITY, f64::min);
+        if least < 0.0 {
+            let message = format!("a shape has a size of {least} m: sizes are positive");
+            self.found.error(at, message, "this shape", "leave out the sign");
+        } else if least == 0.0 {
+            let message = "a shape has a size of 0 m: it is not drawn".to_owned();
+            self.found.warning(at, message, "this shape", "give it an extent, or leave it out");
+        }
+        least > 0.0
     }
 }
