@@ -6,7 +6,7 @@ use crate::read_base::Turning;
 use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::Vec3;
 use wrasse_vehicle::{JOINTS, VehicleRobot};
-use wrasse_world::{BaseAttitude, Drive, Equipment, Stepper, World, WorldSetup};
+use wrasse_world::{Drive, Equipment, Stepper, World, WorldSetup};
 
 /// The vehicle of a case with what it holds, and what pushes at it; nothing floats beside it yet.
 pub(crate) fn world_of(case: &Case, stepper: Stepper) -> World<JOINTS> {
@@ -47,9 +47,6 @@ pub(crate) fn world_of(case: &Case, stepper: Stepper) -> World<JOINTS> {
 
 /// What the world is told of the wheels, gyros and thrusters of a case.
 fn equipment(case: &Case) -> Equipment {
-    if case.base == BaseAttitude::Held {
-        return Equipment::default();
-    }
     Equipment {
         actuators: case.equipment.actuators,
         wheel_speed: case.equipment.wheel_speed,
