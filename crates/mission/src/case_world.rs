@@ -3,8 +3,9 @@
 use crate::applied_wrench::together;
 use crate::mission::Case;
 use crate::read_base::Turning;
+use wrasse_dynamics::{BodyId, Frame, Payload};
 use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
-use wrasse_spatial::Vec3;
+use wrasse_spatial::{Pose, Sym3, Vec3};
 use wrasse_vehicle::{JOINTS, VehicleRobot};
 use wrasse_world::{Drive, Equipment, Stepper, World, WorldSetup};
 
@@ -71,4 +72,14 @@ pub(crate) fn believed_alone(case: &Case) -> VehicleRobot {
         held: &[],
     });
     *world.robot()
+}
+
+/// The vehicle that the laws believe in, with its propellant and nothing in its grips: what leaves the
+/// tank on the way is not planned.
+pub(crate) fn fuelled(case: &Case) -> VehicleRobot {
+    let alone = believed_alone(case);
+    let Some(tank) = case.equipment.actuators.tank else { return alone };
+    let base = Frame { body: BodyId::Base, X_BF: Pose::identity() };
+    let matter = Payload::from_central(tank.propellant, tank.position_B, Sym3::zero());
+    alone.with_payload(&base, &matter)
 }
