@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use wrasse_document::{Complaint, Document, visible};
 use wrasse_mission::read_mission;
+use wrasse_study::study_complaints;
 use wrasse_vehicle::read_vehicle;
 
 /// Check vehicle and mission files: every complaint at once, with its place.
@@ -49,14 +50,16 @@ impl Check {
 /// Complaints about a file, and what it is if it can be used.
 fn findings(file: &PathBuf, text: String) -> (Vec<Complaint>, Option<String>) {
     if is_mission(file, &text) {
+        let of_study = study_complaints(file, &text);
         return match read_mission(file, text) {
-            Ok(mission) => {
+            Ok(mission) if of_study.is_empty() => {
                 let loops = mission.sampled_loops(0);
                 let loops: String = loops.iter().map(|l| format!("\n  {}", l.text())).collect();
                 let what = format!("a mission of {} case(s)", mission.case_count());
                 (mission.remarks, Some(format!("{what}; closed once a period:{loops}")))
             }
-            Err(complaints) => (complaints, None),
+            Ok(mission) => ([of_study, mission.remarks].concat(), None),
+            Err(complaints) => ([complaints, of_study].concat(), None),
         };
     }
     if let Some(what) = list(file, &text) {

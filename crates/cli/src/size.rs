@@ -4,17 +4,18 @@ use crate::input::{complain, say, say_json, tell, text_of};
 use crate::interrupt::at_interrupt;
 use crate::progress::Bar;
 use crate::{YES, bad};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use wrasse_record::{prepare_place, study_json, study_table, write_study};
-use wrasse_study::{StudyOutcome, read_study, size};
+use wrasse_study::{Catalogue, StudyOutcome, read_study_with, size};
 
 /// Size the actuators of a base: what a task asks, which sets can give it, how much slower it must be.
 ///
 /// Takes a study (a mission file with a study table, such as studies/section-4.toml) or any mission,
-/// which is then weighed against the sets of studies/sets.toml. Every task is flown with the reference;
+/// which is then weighed with its own units, as fitted, and with the sets of studies/sets.toml; or with
+/// all units of a kind that the hardware catalogue has. Every task is flown with the reference;
 /// those that the study names are flown in closed loop with every set.
 /// Writes report.html and summary.json to out/NAME-size, beside what `wrasse run` leaves in out/NAME.
 /// Exit code 0: the study ran and its ledgers close (a study of which no set suffices is a result, not
@@ -23,6 +24,10 @@ use wrasse_study::{StudyOutcome, read_study, size};
 pub(crate) struct Size {
     /// The study, or a mission.
     study: PathBuf,
+    /// Weigh every unit of this kind that `wrasse hardware` lists, in a standard arrangement: four
+    /// wheels, four gyros in a pyramid, 24 thrusters at the corners of the bus.
+    #[arg(long, value_name = "KIND", value_delimiter = ',')]
+    catalogue: Vec<Kind>,
     /// Folder for the results, in place of out/NAME-size.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -35,6 +40,27 @@ pub(crate) struct Size {
     threads: Option<NonZeroUsize>,
 }
 
+/// A kind of unit, as the command line has it.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Kind {
+    /// Reaction wheels.
+    Wheels,
+    /// Control moment gyros.
+    Cmgs,
+    /// Thrusters.
+    Thrusters,
+}
+
+impl From<Kind> for Catalogue {
+    fn from(kind: Kind) -> Self {
+        match kind {
+            Kind::Wheels => Self::Wheels,
+            Kind::Cmgs => Self::Cmgs,
+            Kind::Thrusters => Self::Thrusters,
+        }
+    }
+}
+
 impl Size {
     pub(crate) fn go(&self) -> ExitCode {
         let text = match text_of(&self.study) {
@@ -44,7 +70,13 @@ impl Size {
                 return bad();
             }
         };
-        let study = match read_study(&self.study, &text) {
+        let mut catalogue: Vec<Catalogue> = vec![];
+        for kind in self.catalogue.iter().map(|kind| Catalogue::from(*kind)) {
+            if !catalogue.contains(&kind) {
+                catalogue.push(kind);
+            }
+        }
+        let study = match read_study_with(&self.study, &text, &catalogue) {
             Ok(study) => study,
             Err(complaints) => {
                 complain(&complaints);

@@ -4,9 +4,9 @@ use crate::computer::FlightComputer;
 use crate::navigation::Navigation;
 use crate::phase::{Held, Path};
 use crate::resolved_motion::{Assignment, task_jacobian};
-use crate::tool_pose::{Unreachable, joints_for_tool};
+use crate::tool_pose::{Unreachable, joints_for_tool, wrist_too_far};
 use wrasse_dynamics::{Frame, Robot, State};
-use wrasse_spatial::{Quat, Scalar, SpatialVelocity};
+use wrasse_spatial::{Pose, Quat, Scalar, SpatialVelocity};
 
 impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     /// What the navigation makes of gyro and star tracker, if it has them.
@@ -49,9 +49,49 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         let Path::Line(line, axes) = self.guidance.path else { return None };
         let X = line.at(line.duration()).X_NE;
         let (tool, law) = (&self.setup.assignment.tool, self.setup.assignment.law);
-        let state =
-            State { X_NB: self.memory.belief.X_NB, q: self.memory.belief.q, ..State::default() };
-        joints_for_tool(&self.robot, tool, &state, &X, axes, law, &self.setup.limits).err()
+        joints_for_tool(&self.robot, tool, &self.still(), &X, axes, law, &self.setup.limits).err()
+    }
+
+    /// Poses of the tool at the start of the current line, as far along it as it could be brought at the
+    /// attitude that is wanted there, and at its end; if that is out of reach. Seen from here, and the
+    /// base as above.
+    pub fn reach_along_line(&self) -> Option<[Pose<T>; 3]> {
+        let Path::Line(line, axes) = self.guidance.path else { return None };
+        let (tool, law) = (&self.setup.assignment.tool, self.setup.assignment.law);
+        let state = self.still();
+        let is_reached = |t: T| {
+            let X = line.at(t).X_NE;
+            joints_for_tool(&self.robot, tool, &state, &X, axes, law, &self.setup.limits).is_ok()
+        };
+        let (mut near, mut far) = (T::zero(), line.duration());
+        if is_reached(far) {
+            return None;
+        }
+        // To a millionth of the duration.
+        for _ in 0..20 {
+            let middle = (near + far) * T::from_f64(0.5);
+            if is_reached(middle) {
+                near = middle;
+            } else {
+                far = middle;
+            }
+        }
+        Some([T::zero(), near, line.duration()].map(|t| line.at(t).X_NE))
+    }
+
+    /// Distance of the wrist from the shoulder that the end of the line asks for at its attitude, and
+    /// the largest that there is (m), where that is too far and the arm has a spherical shoulder and
+    /// wrist. Where the base gives way both are lengths as they count from the common centre of mass.
+    pub fn wrist_too_far(&self) -> Option<(T, T)> {
+        let Path::Line(line, axes) = self.guidance.path else { return None };
+        let X = line.at(line.duration()).X_NE;
+        let (tool, law) = (&self.setup.assignment.tool, self.setup.assignment.law);
+        wrist_too_far(&self.robot, tool, &self.still(), &X, axes, law)
+    }
+
+    /// The vehicle where it is believed to be, at rest.
+    fn still(&self) -> State<T, J> {
+        State { X_NB: self.memory.belief.X_NB, q: self.memory.belief.q, ..State::default() }
     }
 
     /// Whether the current phase moves the tool along a line.

@@ -41,11 +41,7 @@ pub fn joints_for_tool<T: Scalar, const J: usize>(
     law: ArmLaw,
     limits: &[JointLimits<T>; J],
 ) -> Result<[T; J], Unreachable<T>> {
-    let (seen_from, anchor) = match (axes, law) {
-        (Axes::Base, _) => (State { X_NB: Pose::identity(), ..*state }, Anchor::Base),
-        (Axes::Inertial, ArmLaw::Terrestrial) => (*state, Anchor::Base),
-        (Axes::Inertial, _) => (*state, Anchor::AttitudeAndCentreOfMass),
-    };
+    let (seen_from, anchor) = anchored(state, axes, law);
     if let Some(q) = closed_form(robot, tool, &seen_from, X, anchor, limits) {
         return Ok(q);
     }
@@ -72,6 +68,37 @@ pub fn joints_for_tool<T: Scalar, const J: usize>(
     }
 }
 
+/// Distance of the wrist from the shoulder that the pose `X` (in `axes`) asks for, and the largest that
+/// there is (m), where the first is more and the arm has a spherical shoulder and wrist. Where the base
+/// gives way they are lengths from the common centre of mass: links weighed by what they carry along.
+pub(crate) fn wrist_too_far<T: Scalar, const J: usize>(
+    robot: &Robot<T, J>,
+    tool: &Frame<T>,
+    state: &State<T, J>,
+    X: &Pose<T>,
+    axes: Axes,
+    law: ArmLaw,
+) -> Option<(T, T)> {
+    let (seen_from, anchor) = anchored(state, axes, law);
+    match solved(robot, tool, &seen_from, X, anchor)?.1 {
+        ClosedForm::OutOfReach { distance, reach } => Some((distance, reach)),
+        _ => None,
+    }
+}
+
+/// Where the arm is seen from, and what stands still while it moves.
+fn anchored<T: Scalar, const J: usize>(
+    state: &State<T, J>,
+    axes: Axes,
+    law: ArmLaw,
+) -> (State<T, J>, Anchor) {
+    match (axes, law) {
+        (Axes::Base, _) => (State { X_NB: Pose::identity(), ..*state }, Anchor::Base),
+        (Axes::Inertial, ArmLaw::Terrestrial) => (*state, Anchor::Base),
+        (Axes::Inertial, _) => (*state, Anchor::AttitudeAndCentreOfMass),
+    }
+}
+
 fn closed_form<T: Scalar, const J: usize>(
     robot: &Robot<T, J>,
     tool: &Frame<T>,
@@ -80,6 +107,21 @@ fn closed_form<T: Scalar, const J: usize>(
     anchor: Anchor,
     limits: &[JointLimits<T>; J],
 ) -> Option<[T; J]> {
+    let (arm, ClosedForm::Solved(solutions)) = solved(robot, tool, state, X_NE, anchor)? else {
+        return None;
+    };
+    let travel = arm.joints().map(|j| limits[j].travel);
+    solutions.nearest_within(&travel).map(|solution| arm.put(&solution.q, &state.q))
+}
+
+/// The arm, if it is of the kind that has a closed form, and what that says; the arm angle is kept.
+fn solved<T: Scalar, const J: usize>(
+    robot: &Robot<T, J>,
+    tool: &Frame<T>,
+    state: &State<T, J>,
+    X_NE: &Pose<T>,
+    anchor: Anchor,
+) -> Option<(SphericalRevoluteSpherical<T>, ClosedForm<T>)> {
     let (arm, X_NA) = match anchor {
         Anchor::Base => (SphericalRevoluteSpherical::fixed_base(robot, tool).ok()?, state.X_NB),
         Anchor::AttitudeAndCentreOfMass => {
@@ -90,10 +132,6 @@ fn closed_form<T: Scalar, const J: usize>(
     };
     let near = arm.positions(&state.q);
     let (arm_angle, _) = arm.arm_angle(&near);
-    let ClosedForm::Solved(solutions) = arm.solve(&(X_NA.inverse() * *X_NE), arm_angle, &near)
-    else {
-        return None;
-    };
-    let travel = arm.joints().map(|j| limits[j].travel);
-    solutions.nearest_within(&travel).map(|solution| arm.put(&solution.q, &state.q))
+    let solved = arm.solve(&(X_NA.inverse() * *X_NE), arm_angle, &near);
+    Some((arm, solved))
 }

@@ -3,10 +3,11 @@
 use crate::applied_wrench::together;
 use crate::mission::Case;
 use crate::read_base::Turning;
+use wrasse_dynamics::{BodyId, Frame, Payload};
 use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
-use wrasse_spatial::Vec3;
+use wrasse_spatial::{Pose, Sym3, Vec3};
 use wrasse_vehicle::{JOINTS, VehicleRobot};
-use wrasse_world::{BaseAttitude, Drive, Equipment, Stepper, World, WorldSetup};
+use wrasse_world::{Drive, Equipment, Stepper, World, WorldSetup};
 
 /// The vehicle of a case with what it holds, and what pushes at it; nothing floats beside it yet.
 pub(crate) fn world_of(case: &Case, stepper: Stepper) -> World<JOINTS> {
@@ -47,9 +48,6 @@ pub(crate) fn world_of(case: &Case, stepper: Stepper) -> World<JOINTS> {
 
 /// What the world is told of the wheels, gyros and thrusters of a case.
 fn equipment(case: &Case) -> Equipment {
-    if case.base == BaseAttitude::Held {
-        return Equipment::default();
-    }
     Equipment {
         actuators: case.equipment.actuators,
         wheel_speed: case.equipment.wheel_speed,
@@ -74,4 +72,14 @@ pub(crate) fn believed_alone(case: &Case) -> VehicleRobot {
         held: &[],
     });
     *world.robot()
+}
+
+/// The vehicle that the laws believe in, with its propellant and nothing in its grips: what leaves the
+/// tank on the way is not planned.
+pub(crate) fn fuelled(case: &Case) -> VehicleRobot {
+    let alone = believed_alone(case);
+    let Some(tank) = case.equipment.actuators.tank else { return alone };
+    let base = Frame { body: BodyId::Base, X_BF: Pose::identity() };
+    let matter = Payload::from_central(tank.propellant, tank.position_B, Sym3::zero());
+    alone.with_payload(&base, &matter)
 }

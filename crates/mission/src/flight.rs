@@ -189,7 +189,7 @@ impl<'a> Flight<'a> {
             return;
         }
         let left = self.world.actuator_readings().propellant;
-        if left <= 0.0 && !self.dry {
+        if left <= 0.0 && !self.dry && self.thrusters_act() {
             self.dry = true;
             let text = describe(self.case, Saturation::TankEmpty);
             self.say(EventKind::Limit, text);
@@ -199,6 +199,13 @@ impl<'a> Flight<'a> {
             let believed = self.believed_robot();
             self.computer.robot_changed(&believed);
         }
+    }
+
+    /// Whether there are thrusters that are told anything, or that something opens.
+    fn thrusters_act(&self) -> bool {
+        let fitted = &self.case.equipment.actuators;
+        let used = fitted.tank.is_some_and(|tank| tank.propellant > 0.0);
+        !fitted.thrusters.is_empty() && (used || self.case.turning == Turning::Fitted)
     }
 
     /// Angle of the base from the attitude that it began with (rad).

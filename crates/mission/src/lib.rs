@@ -1,6 +1,8 @@
 //! A mission file puts a flight computer into a world, plans, runs and judges.
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
+#![allow(clippy::format_push_string, reason = "`text += &format!(…)` reads as what it does")]
 
+mod advice;
 mod applied_wrench;
 mod arm_shape;
 mod asked;
@@ -20,6 +22,7 @@ mod gripping;
 mod limits_passed;
 mod mission;
 mod observe;
+mod other_postures;
 mod outcome;
 mod phase_format;
 mod picture;

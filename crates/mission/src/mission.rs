@@ -2,6 +2,7 @@
 
 use crate::applied_wrench::AppliedWrench;
 use crate::base_format::{ClaimIs, StudyFile};
+use crate::case_world::fuelled;
 use crate::dispersion::Dispersion;
 use crate::quantity::Quantity;
 use crate::read_base::Turning;
@@ -9,11 +10,11 @@ use crate::requirement::Requirement;
 use crate::sampled_loops::{SampledLoop, sampled_loops};
 use std::sync::Arc;
 use wrasse_document::Complaint;
-use wrasse_dynamics::{BodyId, Frame, JointKind, Payload, Robot, State};
+use wrasse_dynamics::{Frame, JointKind, Payload, State};
 use wrasse_flight::steering::Unit;
 use wrasse_flight::{Phase, Setup};
-use wrasse_hardware::Sensors;
-use wrasse_spatial::{Pose, SpatialVelocity, Sym3};
+use wrasse_hardware::{AttitudeActuator, Sensors};
+use wrasse_spatial::{Pose, SpatialVelocity};
 use wrasse_vehicle::{Equipment, JOINTS, Vehicle, VehicleRobot};
 use wrasse_world::{BaseAttitude, Failure, FreeBody, Stepper};
 
@@ -101,6 +102,17 @@ impl Mission {
     /// If there is no case of this number.
     pub fn sampled_loops(&self, case: usize) -> Vec<SampledLoop> {
         sampled_loops(&self.cases[case])
+    }
+    /// The ideal actuator that turns the base of a case, where it has limits.
+    ///
+    /// # Panics
+    /// If there is no case of this number.
+    pub fn ideal_actuator(&self, case: usize) -> Option<AttitudeActuator<f64>> {
+        let case = &self.cases[case];
+        match case.turning {
+            Turning::Ideal(actuator) if case.base == BaseAttitude::Controlled => actuator,
+            Turning::Ideal(_) | Turning::Fitted => None,
+        }
     }
     /// Number of cases: one, or one for each combination that is compared.
     pub fn case_count(&self) -> usize {
@@ -221,20 +233,12 @@ impl Case {
     }
     /// The robot that the flight computer believes in, with what it holds from the start, and with its
     /// propellant.
-    pub(crate) fn robot_at_start(&self) -> Robot<f64, JOINTS> {
-        let fuelled = match self.equipment.actuators.tank {
-            Some(tank) => {
-                let base = Frame { body: BodyId::Base, X_BF: Pose::identity() };
-                let matter = Payload::from_central(tank.propellant, tank.position_B, Sym3::zero());
-                self.believed_robot().with_payload(&base, &matter)
-            }
-            None => *self.believed_robot(),
-        };
+    pub(crate) fn robot_at_start(&self) -> VehicleRobot {
         let held = self.payloads.iter().enumerate().filter_map(|(i, p)| match p.start {
             PayloadStart::Held(frame) => Some((frame, self.believed_matter(i))),
             PayloadStart::Free(..) => None,
         });
-        held.fold(fuelled, |robot, (frame, matter)| robot.with_payload(&frame, &matter))
+        held.fold(fuelled(self), |robot, (frame, matter)| robot.with_payload(&frame, &matter))
     }
     /// Payloads held from the start.
     pub(crate) fn held_at_start(&self) -> Vec<(Frame<f64>, Payload<f64>)> {
@@ -259,7 +263,7 @@ impl Case {
     pub(crate) fn joint_name(&self, j: usize) -> &str {
         self.vehicle.joint_names.get(j).map_or("?", String::as_str)
     }
-    fn turns(&self, j: usize) -> bool {
+    pub(crate) fn turns(&self, j: usize) -> bool {
         self.vehicle.robot.joint(j).kind == JointKind::Revolute
     }
     /// A joint's position in words (from rad or m).

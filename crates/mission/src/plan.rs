@@ -2,14 +2,15 @@
 //! that cannot be gone is found here, with where and why it ends.
 
 use crate::arm_shape::{reach_margin, smallest_singular_value};
+use crate::case_world::fuelled;
 use crate::mission::{Case, PayloadStart};
 use crate::outcome::{End, PlanLine};
 use crate::sampled_loops::{SampledLoop, joint_gain, joint_loop, sampled_loops};
-use wrasse_dynamics::{Frame, Payload, Robot, State, kinematics};
+use wrasse_dynamics::{Frame, Payload, State, kinematics};
 use wrasse_flight::{Actuation, BadPhase, FlightComputer, Grip, LONGEST, NoWay, Sensed, Task};
 use wrasse_hardware::ActuatorReadings;
-use wrasse_spatial::{Quat, Vec3};
-use wrasse_vehicle::JOINTS;
+use wrasse_spatial::{Pose, Quat, Vec3};
+use wrasse_vehicle::{JOINTS, VehicleRobot};
 use wrasse_world::FreeBody;
 
 /// A tool that its own law believes this far from its reference has left the way (m, rad).
@@ -27,6 +28,8 @@ pub(crate) struct Plan {
     pub(crate) periods: u64,
     /// Where and why the way ends.
     pub(crate) blocked: Option<End>,
+    /// Pose of the tool as the last phase begins: in inertial axes, and in those of the base.
+    pub(crate) tool: [Pose<f64>; 2],
 }
 
 /// What is noted of a phase while it is gone through.
@@ -40,6 +43,8 @@ struct PhaseNotes {
     reach: f64,
     /// The joint that moves fastest, and how fast (rad/s or m/s).
     fastest: (usize, f64),
+    /// How far the base has come (m), and how far it has turned (rad).
+    base_shift: f64,
     base_turn: f64,
     /// Largest acceleration that joints get for one that their loops ask for (–).
     loop_gain: f64,
@@ -53,6 +58,7 @@ impl PhaseNotes {
         singular: f64::INFINITY,
         reach: f64::INFINITY,
         fastest: (0, 0.0),
+        base_shift: 0.0,
         base_turn: 0.0,
         loop_gain: 0.0,
     };
@@ -62,14 +68,22 @@ impl PhaseNotes {
 struct Belief<'a> {
     case: &'a Case,
     computer: FlightComputer<f64, JOINTS>,
+    /// With propellant, and nothing in its grips.
+    alone: VehicleRobot,
     held: Vec<(usize, Frame<f64>, Payload<f64>)>,
     free: Vec<Option<FreeBody>>,
 }
 
 /// Go through all phases.
 pub(crate) fn plan(case: &Case) -> Plan {
+    plan_through(case, usize::MAX)
+}
+
+/// Go through the phases up to this one.
+pub(crate) fn plan_through(case: &Case, last: usize) -> Plan {
     let mut belief = Belief::new(case);
-    let mut plan = Plan { lines: loop_lines(case), periods: 0, blocked: None };
+    let tool = belief.tool(&case.start);
+    let mut plan = Plan { lines: loop_lines(case), periods: 0, blocked: None, tool };
     let mut state = case.start;
     let idle = ActuatorReadings::default();
     let mut notes = PhaseNotes::NONE;
@@ -81,12 +95,17 @@ pub(crate) fn plan(case: &Case) -> Plan {
             Err(bad) => {
                 plan.lines.extend(finished(case, phase, &notes));
                 plan.blocked = Some(cannot_begin(case, &bad, time));
+                plan.tool = belief.tool(&state);
                 return plan;
             }
         };
         if command.phase != phase {
             plan.lines.extend(finished(case, phase, &notes));
             (phase, notes) = (command.phase, PhaseNotes::NONE);
+            if phase > last {
+                return plan;
+            }
+            plan.tool = belief.tool(&state);
         }
         if let Some(grip) = command.grip {
             belief.grip(grip);
@@ -126,6 +145,11 @@ fn too_long(case: &Case, phase: usize, periods: u64) -> End {
     End::Infeasible { phase, time_s, reason }
 }
 
+/// A vehicle with payloads in its grips.
+fn laden(alone: &VehicleRobot, held: &[(usize, Frame<f64>, Payload<f64>)]) -> VehicleRobot {
+    held.iter().fold(*alone, |robot, (_, frame, matter)| robot.with_payload(frame, matter))
+}
+
 impl<'a> Belief<'a> {
     fn new(case: &'a Case) -> Self {
         let phases = case.flight_phases();
@@ -140,16 +164,18 @@ impl<'a> Belief<'a> {
             PayloadStart::Free(..) => Some(case.free_body(i, case.believed_matter(i))),
             PayloadStart::Held(_) => None,
         });
-        Self {
-            case,
-            computer: FlightComputer::new(setup, &case.robot_at_start(), &phases),
-            held: held.collect(),
-            free: free.collect(),
-        }
+        let held: Vec<_> = held.collect();
+        let alone = fuelled(case);
+        let computer = FlightComputer::new(setup, &laden(&alone, &held), &phases);
+        Self { case, computer, alone, held, free: free.collect() }
     }
-    fn robot(&self) -> Robot<f64, JOINTS> {
-        let empty = *self.case.believed_robot();
-        self.held.iter().fold(empty, |robot, (_, frame, matter)| robot.with_payload(frame, matter))
+    fn robot(&self) -> VehicleRobot {
+        laden(&self.alone, &self.held)
+    }
+    /// Pose of the tool: in inertial axes, and in those of the base.
+    fn tool(&self, state: &State<f64, JOINTS>) -> [Pose<f64>; 2] {
+        let X_NE = kinematics(self.computer.robot(), state).pose(self.computer.tool());
+        [X_NE, state.X_NB.inverse() * X_NE]
     }
     fn float_on(&mut self) {
         let period = self.case.period();
@@ -184,6 +210,7 @@ impl<'a> Belief<'a> {
         let reach = reach_margin(&k, self.computer.tool()).unwrap_or(f64::INFINITY);
         let R = case.start.X_NB.rotation.transpose() * state.X_NB.rotation;
         notes.base_turn = Quat::from_matrix(&R).log().norm();
+        notes.base_shift = (state.X_NB.translation - case.start.X_NB.translation).norm();
         notes.reach = notes.reach.min(reach);
         let mut limited = String::new();
         for j in k.robot.joints() {
@@ -224,7 +251,7 @@ impl<'a> Belief<'a> {
                 notes.way,
                 off * 1e3,
                 turned.to_degrees(),
-                condition(singular, reach, notes.base_turn),
+                condition(singular, reach, notes),
                 self.about_the_end()
             )
         })
@@ -243,30 +270,64 @@ impl Belief<'_> {
         Some(format!("a loop would be unstable as sampled: {}; {}", found.text(), found.help()))
     }
 
-    /// Whether the end of the way is out of reach at any speed, in words.
+    /// Whether the end of the way is out of reach at any speed, what is missing, and what stops the arm.
     fn about_the_end(&self) -> String {
-        let task = self.case.setup.assignment.task;
-        match self.computer.end_out_of_reach().filter(|_| task == Task::Pose) {
-            Some(left) if left.position_error.is_finite() => format!(
-                "; from here, if the base turns no more, its end is out of reach at any speed: the nearest \
-                 is {:.1} mm and {:.2} deg off",
-                left.position_error * 1e3,
-                left.rotation_error.to_degrees()
-            ),
-            _ => String::new(),
+        let (case, computer) = (self.case, &self.computer);
+        let at_end = computer.end_out_of_reach().filter(|left| left.position_error.is_finite());
+        let (Task::Pose, Some(left)) = (case.setup.assignment.task, at_end) else {
+            return String::new();
+        };
+        let mut text = format!(
+            "; from here, if the base turns no more, its end is out of reach at any speed: the nearest \
+             is {:.1} mm and {:.2} deg off",
+            left.position_error * 1e3,
+            left.rotation_error.to_degrees()
+        );
+        if let Some(j) = left.joint {
+            text +=
+                &format!(", where joint {} stands at the end of its travel", case.joint_name(j));
         }
+        text += &computer.reach_along_line().map_or(String::new(), missing);
+        if let Some((asked, there)) = computer.wrist_too_far() {
+            text += &format!(
+                "; there the wrist would have to be {asked:.3} m from the shoulder, and the stretched arm \
+                 has {there:.3} m (the base's giving way counted)"
+            );
+        }
+        text
     }
 }
 
-/// What the arm is like, in words and numbers.
-fn condition(singular: f64, reach: f64, base_turn: f64) -> String {
+/// How much of a line is missing, from poses of the tool at its start, as far as it can be brought, and
+/// at its end.
+fn missing([start, reached, end]: [Pose<f64>; 3]) -> String {
+    let way = |X: Pose<f64>| (X.translation - start.translation).norm();
+    let turn = |X: Pose<f64>| {
+        Quat::from_matrix(&(X.rotation * start.rotation.transpose())).log().norm().to_degrees()
+    };
+    let mut text = "; at the attitude that is wanted the tool".to_owned();
+    if way(end) > 1e-6 {
+        let (reached, whole) = (way(reached), way(end));
+        let short = (whole - reached) * 1e3;
+        text += &format!(" reaches {reached:.3} m of the {whole:.3} m, {short:.1} mm are missing");
+        return text;
+    }
+    let (reached, whole) = (turn(reached), turn(end));
+    let short = whole - reached;
+    text + &format!(" turns by {reached:.1} deg of the {whole:.1} deg, {short:.1} deg are missing")
+}
+
+/// What the arm is like, and where the base is believed to be, in words and numbers.
+fn condition(singular: f64, reach: f64, notes: &PhaseNotes) -> String {
     let mut left = String::new();
     if reach.is_finite() {
-        left = format!("{:.1} mm of reach left, ", reach * 1e3);
+        left = format!("arm {:.1} mm short of straight, ", reach * 1e3);
     }
-    let turn = base_turn.to_degrees();
     format!(
-        "smallest singular value {singular:.4}, {left}base believed to have turned {turn:.2} deg"
+        "smallest singular value {singular:.4}, {left}base believed to have moved {:.1} mm and turned \
+         {:.2} deg",
+        notes.base_shift * 1e3,
+        notes.base_turn.to_degrees()
     )
 }
 
@@ -282,7 +343,7 @@ fn finished(case: &Case, phase: usize, notes: &PhaseNotes) -> Option<PlanLine> {
         case.joint_name(notes.fastest.0)
     );
     if notes.singular.is_finite() {
-        text = format!("{text}, {}", condition(notes.singular, notes.reach, notes.base_turn));
+        text = format!("{text}, {}", condition(notes.singular, notes.reach, notes));
     }
     if let Some(found) = joint_loop(case, notes.loop_gain).filter(|found| found.gain > 1.0) {
         text = format!("{text}, {}", found.text());

@@ -1,5 +1,6 @@
 //! A mission run: each case planned, flown and judged.
 
+use crate::advice::{advice, with_advice};
 use crate::books::ledger;
 use crate::fly::{Flown, fly};
 use crate::mission::{Case, Mission};
@@ -111,7 +112,8 @@ pub fn run_case(
     tell("planning", 0.0);
     let plan = plan(case);
     if let Some(end) = &plan.blocked {
-        return not_flown(case, &plan, end.clone());
+        tell("looking for what would help", 0.0);
+        return not_flown(case, &plan, advised(case, &plan, end));
     }
     let flown = fly(case, &plan, case.stepper, &mut |share| tell("flying", share));
     let mut error_estimate = vec![];
@@ -154,6 +156,17 @@ fn not_flown(case: &Case, plan: &Plan, end: End) -> CaseOutcome {
         telemetry: Telemetry::default(),
         demand: vec![],
         snapshots: vec![],
+    }
+}
+
+/// An end with what would help.
+fn advised(case: &Case, plan: &Plan, end: &End) -> End {
+    match end {
+        End::Infeasible { phase, time_s, reason } => {
+            let reason = with_advice(reason, &advice(case, plan));
+            End::Infeasible { phase: phase.clone(), time_s: *time_s, reason }
+        }
+        other => other.clone(),
     }
 }
 

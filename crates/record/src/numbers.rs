@@ -37,6 +37,15 @@ pub(crate) fn rounded(value: f64) -> String {
     format!("{value:.2e}").parse().map_or_else(|_| significant(value), significant)
 }
 
+/// Least error that is told: of a tool in mm, of an attitude in deg.
+pub(crate) const FINEST: f64 = 0.001;
+
+/// An error of a flight that was simulated: three digits, and no smaller than `least`, below which
+/// nothing is built or measured.
+pub(crate) fn error(value: f64, least: f64) -> String {
+    if value > 0.0 && value < least { format!("<{least}") } else { rounded(value) }
+}
+
 /// Zero for what is round-off beside the largest figure of its row.
 pub(crate) fn beside_largest(value: f64, largest: f64) -> f64 {
     if value.abs() < 1e-9 * largest { 0.0 } else { value }
@@ -94,6 +103,12 @@ mod tests {
             [92.4567, 0.0, 12345.0, 0.000_123_45].map(rounded),
             ["92.5", "0", "12300", "1.23e-4"]
         );
+    }
+
+    #[test]
+    fn an_error_below_what_can_be_measured_is_told_as_less() {
+        let told = [0.0, 1.72e-4, 0.001, 26.71].map(|x| error(x, 0.001));
+        assert_eq!(told, ["0", "<0.001", "0.001", "26.7"]);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use wrasse_study::{Answer, Both, SetCard, SetKind, SetVerdict, StudyOutcome, TaskOutcome};
 
 use crate::markup::{escaped, figure, table, words};
-use crate::numbers::{beside_largest, counted, pace, rounded as short};
+use crate::numbers::{FINEST, beside_largest, counted, error, pace, rounded as short};
 use crate::study_envelope::{MomentumPath, envelope_figure};
 use crate::study_figures::{error_figure, saturation_figure, task_figures};
 
@@ -110,11 +110,12 @@ fn demands(tasks: &[TaskOutcome]) -> String {
             Some(task.peak_momentum_nms),
             hand.map(|h| h.momentum),
             task.gathered_nm,
-            Some(task.tool_error_mm),
         ];
         let largest = figures.iter().flatten().copied().fold(0.0, f64::max);
         let told = |x: f64| short(beside_largest(x, largest));
         row.extend(figures.map(|x| figure(&x.map_or("\u{2013}".to_owned(), told))));
+        let off = beside_largest(task.tool_error_mm, largest);
+        row.push(figure(&error(off, FINEST)));
         row
     });
     let head = [
@@ -276,9 +277,9 @@ fn flights(outcome: &StudyOutcome) -> String {
         vec![
             words(&task.name),
             words(&verdict.set),
-            figure(&short(flown.tool_error_mm)),
-            figure(&short(flown.tool_error_at_end_mm)),
-            figure(&short(flown.attitude_error_deg)),
+            figure(&error(flown.tool_error_mm, FINEST)),
+            figure(&error(flown.tool_error_at_end_mm, FINEST)),
+            figure(&error(flown.attitude_error_deg, FINEST)),
             figure(&flown.propellant_kg.map_or("\u{2013}".to_owned(), |kg| short(1e3 * kg))),
             format!("<td>{holds}{open}</td>"),
             words(limit.map_or("", String::as_str)),

@@ -2,7 +2,7 @@
 
 use wrasse_study::{Answer, SetCard, SetVerdict, StudyOutcome, TaskOutcome};
 
-use crate::numbers::{beside_largest, counted, pace, rounded};
+use crate::numbers::{FINEST, beside_largest, counted, error, pace, rounded};
 use crate::tables::{OPEN, Side, aligned, printable};
 
 /// Tasks up to which each set gets its own line; more are shown as a matrix.
@@ -77,10 +77,10 @@ fn demands(outcome: &StudyOutcome) -> String {
             Some(task.peak_momentum_nms),
             hand.map(|h| h.momentum),
             task.gathered_nm,
-            Some(task.tool_error_mm),
         ];
         let largest = figures.iter().flatten().copied().fold(0.0, f64::max);
         row.extend(figures.map(|x| number(x.map(|x| beside_largest(x, largest)))));
+        row.push(error(beside_largest(task.tool_error_mm, largest), FINEST));
         rows.push(row);
     }
     let mut sides = vec![Side::Right; 8];
@@ -222,9 +222,9 @@ fn flights(outcome: &StudyOutcome) -> String {
             rows.push(vec![
                 task.name.clone(),
                 verdict.set.clone(),
-                rounded(flown.tool_error_mm),
-                rounded(flown.tool_error_at_end_mm),
-                rounded(flown.attitude_error_deg),
+                error(flown.tool_error_mm, FINEST),
+                error(flown.tool_error_at_end_mm, FINEST),
+                error(flown.attitude_error_deg, FINEST),
                 if flown.requirements_hold { "hold" } else { "FAIL" }.to_owned(),
                 limit.map_or(String::new(), |text| shortened(text)),
             ]);

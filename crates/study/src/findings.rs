@@ -2,6 +2,7 @@
 //! are not, and what decides. Every sentence counts verdicts; none is written beforehand.
 
 use crate::judgement::Answer;
+use crate::lightest::lightest;
 use crate::outcome::{Finding, Flown, SetCard, SetKind, SetVerdict, TaskOutcome};
 use wrasse_mission::ClaimIs;
 
@@ -14,6 +15,7 @@ pub(crate) fn findings(
 ) -> Vec<Finding> {
     let all = Verdicts { claim, sets, tasks };
     let parts = [
+        lightest(sets, &all.that(|_| true)),
         all.only_gyros(),
         all.wheels_suffice(),
         all.neither(),
@@ -123,9 +125,10 @@ impl<'a> Verdicts<'a> {
             self.that(|t| stored.iter().all(|kind| !self.some(t, *kind, Answer::WithSteering)));
         let worst = tasks.iter().map(|t| t.peak_torque_nm).fold(0.0, f64::max);
         let mut text = format!(
-            "In {} of {} tasks no set of wheels and no set of gyros suffices (up to {worst:.0} N·m).",
+            "In {} of {} tasks no set of wheels and no set of gyros suffices (up to {} N·m).",
             tasks.len(),
-            self.asked()
+            self.asked(),
+            rounded(worst)
         );
         if tasks.iter().any(|t| t.own_motion) {
             text += " The vehicle's own motions can be done more slowly.";
@@ -233,11 +236,11 @@ impl<'a> Verdicts<'a> {
             .copied()
             .reduce(|a, b| if b.tool_error_mm > a.tool_error_mm { b } else { a })?;
         let text = format!(
-            "In {} of {} tasks a force pushes the vehicle away with its attitude held: by {:.0} mm in {:.0} s \
+            "In {} of {} tasks a force pushes the vehicle away with its attitude held: by {} mm in {} s \
              at most. Wheels and gyros cannot react a force, thrusters and a grapple can.",
             tasks.len(),
             self.asked(),
-            worst.tool_error_mm,
+            rounded(worst.tool_error_mm),
             worst.duration_s
         );
         Some(finding("no torque reacts a force", text, &tasks))
@@ -288,6 +291,7 @@ fn asks_nothing(task: &TaskOutcome) -> bool {
 fn name(kind: SetKind) -> &'static str {
     match kind {
         SetKind::Ideal => "The reference",
+        SetKind::Actuator => "The vehicle's ideal actuator",
         SetKind::Wheels => "Wheels",
         SetKind::Gyros => "Gyros",
         SetKind::Thrusters => "Thrusters",
@@ -304,26 +308,32 @@ fn errors<'a>(flights: impl Iterator<Item = &'a Flown>, word: &str) -> Option<St
     let hold = flights.iter().filter(|flown| flown.requirements_hold).count();
     (!flights.is_empty()).then(|| {
         format!(
-            "{word}, {} to {} mm (requirements hold in {hold} of {} flights)",
-            rounded(low),
-            rounded(high),
+            "{word}, {} mm (requirements hold in {hold} of {} flights)",
+            span(low, high, FINEST_MM),
             flights.len()
         )
     })
 }
 
-/// Two significant digits.
-fn rounded(value: f64) -> String {
-    if value >= 10.0 {
-        return format!("{value:.0}");
-    }
+/// Two significant digits: what demands and vehicles are known to.
+pub(crate) fn rounded(value: f64) -> String {
     let short = format!("{value:.1e}");
     short.parse::<f64>().map_or(short, |value| value.to_string())
 }
 
-fn finding(about: &str, text: String, tasks: &[&TaskOutcome]) -> Finding {
+/// Two figures with two digits each, or one where they are the same, and `least` for what is less.
+fn span(low: f64, high: f64, least: f64) -> String {
+    let told = |x: f64| if x < least { format!("less than {least}") } else { rounded(x) };
+    let (low, high) = (told(low), told(high));
+    if low == high { low } else { format!("{low} to {high}") }
+}
+
+/// An error of the tool (mm) below which it says nothing: no arm is built or measured to it.
+const FINEST_MM: f64 = 0.001;
+
+pub(crate) fn finding(about: &str, text: String, tasks: &[&TaskOutcome]) -> Finding {
     Finding { about: about.into(), text, tasks: tasks.iter().map(|t| t.name.clone()).collect() }
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -5,9 +5,10 @@ use crate::outcome::HandCheck;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use wrasse_dynamics::{BodyId, Kinematics, State, kinematics};
-use wrasse_spatial::Vec3;
-use wrasse_vehicle::{JOINTS, Vehicle};
+use wrasse_dynamics::{BodyId, Frame, Kinematics, Payload, State, kinematics};
+use wrasse_hardware::Tank;
+use wrasse_spatial::{Pose, Sym3, Vec3};
+use wrasse_vehicle::{JOINTS, Vehicle, VehicleRobot};
 
 /// What a mission file says of the load, the motion and the push. The rest is not read.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
@@ -99,10 +100,27 @@ struct LimitsFile {
     jerk_m_s3: f64,
 }
 
-/// The vehicle at the start of a task, without its load.
+/// The vehicle at the start of a task, with what is in its tank and without its load.
 pub(crate) struct Start<'a> {
-    pub(crate) vehicle: &'a Vehicle,
-    pub(crate) state: State<f64, JOINTS>,
+    vehicle: &'a Vehicle,
+    robot: VehicleRobot,
+    state: State<f64, JOINTS>,
+}
+
+impl<'a> Start<'a> {
+    pub(crate) fn new(
+        vehicle: &'a Vehicle,
+        tank: Option<Tank<f64>>,
+        state: &State<f64, JOINTS>,
+    ) -> Self {
+        let mut robot = vehicle.robot;
+        if let Some(tank) = tank {
+            let base = Frame { body: BodyId::Base, X_BF: Pose::identity() };
+            let matter = Payload::from_central(tank.propellant, tank.position_B, Sym3::zero());
+            robot = robot.with_payload(&base, &matter);
+        }
+        Self { vehicle, robot, state: *state }
+    }
 }
 
 /// Peak speed (m/s) and acceleration (m/s²) of a motion, and how they are found.
@@ -163,7 +181,7 @@ impl Start<'_> {
     }
     /// Centre of mass of vehicle and load (m).
     pub(crate) fn centre_of_mass(&self, file: &TaskFile) -> Vec3<f64> {
-        let k = kinematics(&self.vehicle.robot, &self.state);
+        let k = kinematics(&self.robot, &self.state);
         let ((rest, p_rest), (load, p_load)) = (k.centre_of_mass(), self.load(&k, file, |_| true));
         (p_rest * rest + p_load * load) * (1.0 / (rest + load))
     }
@@ -182,7 +200,7 @@ impl Start<'_> {
         if turned || file.phase.iter().any(PhaseFile::changes_the_load) {
             return None;
         }
-        let k = kinematics(&self.vehicle.robot, &self.state);
+        let k = kinematics(&self.robot, &self.state);
         let centre = self.centre_of_mass(file);
         let (mut torque, mut momentum) = (Vec3::zero(), Vec3::zero());
         let mut how = vec![];
@@ -222,7 +240,7 @@ impl Start<'_> {
         let by = Vec3::from_array(motion.by_m?);
         let pace = motion.pace(by.norm())?;
         let along = by * (1.0 / by.norm());
-        let k = kinematics(&self.vehicle.robot, &self.state);
+        let k = kinematics(&self.robot, &self.state);
         let (load, p_load) = self.load(&k, file, |name| name == tool);
         // What other tools hold belongs to the rest.
         let ((own, p_own), (other, p_other)) =
@@ -319,6 +337,19 @@ mod tests {
         let push =
             WrenchFile { from_s: 1.0, duration_s: 4.0, ramp_s: 0.5, ..WrenchFile::default() };
         assert_eq!([0.5, 3.0, 9.0].map(|duration| push.acting(duration)), [0.0, 1.75, 3.5]);
+    }
+
+    /// The tank of the reference was left out, and with it where thrusters turn the vehicle about.
+    #[test]
+    fn the_centre_of_mass_is_that_of_the_fuelled_vehicle() {
+        let vehicle = wrasse_vehicle::find_vehicle("planar-two-link", None).unwrap();
+        let mass = vehicle.robot.mass();
+        let tank = Tank { position_B: Vec3::from_array([0.0, 0.0, 1.0]), propellant: mass };
+        let centre = |tank| {
+            Start::new(&vehicle, tank, &State::default()).centre_of_mass(&TaskFile::default())
+        };
+        let (dry, wet) = (centre(None), centre(Some(tank)));
+        assert!((wet.z - 0.5 * (dry.z + 1.0)).abs() < 1e-14, "{dry:?} {wet:?}");
     }
 
     /// Ramps of one second: pure jerk doubles the mean acceleration, most of it constant does not.

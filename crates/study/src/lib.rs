@@ -9,10 +9,13 @@ mod findings;
 mod flights;
 mod hand_check;
 mod judgement;
+mod lightest;
 mod outcome;
 mod own_units;
+mod sets;
 mod size;
 mod study;
+mod study_table;
 
 pub use capability::{Capability, Reach};
 pub use demand::Demand;
@@ -24,5 +27,7 @@ pub use judgement::{Answer, Both, Judgement, judge};
 pub use outcome::{
     Finding, Flown, HandCheck, SetCard, SetKind, SetVerdict, StudyOutcome, TaskOutcome,
 };
+pub use sets::Catalogue;
 pub use size::size;
-pub use study::{Study, read_study};
+pub use study::{Study, read_study, read_study_with};
+pub use study_table::study_complaints;

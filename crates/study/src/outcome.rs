@@ -47,6 +47,8 @@ pub struct StudyOutcome {
 pub enum SetKind {
     /// Any torque at once: the reference.
     Ideal,
+    /// The vehicle's ideal actuator, within its limits.
+    Actuator,
     /// Reaction wheels alone.
     Wheels,
     /// Control moment gyros, with or without wheels.

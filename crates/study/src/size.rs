@@ -7,9 +7,10 @@ use crate::findings::findings;
 use crate::flights::fly;
 use crate::hand_check::Start;
 use crate::judgement::{Both, Judgement, judge};
-use crate::outcome::{Flown, SetCard, SetKind, SetVerdict, StudyOutcome, TaskOutcome};
+use crate::outcome::{Finding, Flown, SetCard, SetKind, SetVerdict, StudyOutcome, TaskOutcome};
 use crate::study::{Study, Task};
 use wrasse_dynamics::{JointKind, State};
+use wrasse_hardware::{List, ReactionWheel};
 use wrasse_mission::{CaseOutcome, End, EventKind, Metric, Progress, ProvenanceRow};
 use wrasse_spatial::{Vec3, vec3};
 use wrasse_vehicle::{Equipment, Grade, Vehicle};
@@ -45,11 +46,19 @@ pub fn size(study: &Study, threads: usize, progress: &mut dyn FnMut(Progress<'_>
         power_limit_w: table.and_then(|table| table.power_limit_w),
         flights,
         closes,
-        findings: findings(claim_is, &sets, &tasks),
+        findings: findings(claim_is, &sets, &tasks).into_iter().chain(left_out(study)).collect(),
         claim,
         sets,
         tasks,
     }
+}
+
+/// Sets that this vehicle cannot be flown with, and why.
+fn left_out(study: &Study) -> Option<Finding> {
+    let each = study.left_out.iter().map(|(set, why)| format!("{set}: {why}"));
+    let text: Vec<String> = each.collect();
+    let about = "left out".to_owned();
+    (!text.is_empty()).then(|| Finding { about, text: text.join("; ") + ".", tasks: vec![] })
 }
 
 fn broke_down(case: &CaseOutcome) -> bool {
@@ -62,7 +71,11 @@ fn card(study: &Study, k: usize) -> SetCard {
     let nothing = Equipment::default();
     let equipment = case.map_or(&nothing, |case| study.mission.equipment(case));
     let ideal = k == study.reference;
-    let able = if ideal { Capability::ideal() } else { Capability::of(equipment, Vec3::zero()) };
+    let limited = case.and_then(|case| study.mission.ideal_actuator(case));
+    let able = match case {
+        Some(case) if !ideal => able(study, case, Vec3::zero()),
+        _ => Capability::ideal(),
+    };
     let units = [vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0)];
     let known = |x: Option<f64>| if ideal { None } else { x };
     let limits =
@@ -71,7 +84,11 @@ fn card(study: &Study, k: usize) -> SetCard {
     let within = |x: Option<f64>, most: Option<f64>| known(x).zip(most).map(|(x, most)| x <= most);
     SetCard {
         name: study.sets[k].clone(),
-        kind: if ideal { SetKind::Ideal } else { kind(equipment) },
+        kind: match limited {
+            _ if ideal => SetKind::Ideal,
+            Some(_) => SetKind::Actuator,
+            None => kind(equipment),
+        },
         mass_kg: known(equipment.mass),
         power_w: known(equipment.power),
         within_mass_limit: within(equipment.mass, most_mass),
@@ -83,6 +100,25 @@ fn card(study: &Study, k: usize) -> SetCard {
         provenance: if ideal { vec![] } else { provenance(equipment) },
         surfaces: if ideal { vec![] } else { surfaces(&able) },
     }
+}
+
+/// What the set of a case can do, about a centre of mass (m, base axes). An ideal actuator within its
+/// limits is three wheels of these limits along the axes of the base.
+fn able(study: &Study, case: usize, p_BScm_B: Vec3<f64>) -> Capability {
+    let Some(limits) = study.mission.ideal_actuator(case) else {
+        return Capability::of(study.mission.equipment(case), p_BScm_B);
+    };
+    let axes = [vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0)];
+    let wheel = |axis_B| ReactionWheel {
+        axis_B,
+        inertia: 1.0,
+        torque_limit: limits.torque_limit,
+        speed_limit: limits.momentum_limit,
+        ..ReactionWheel::default()
+    };
+    let mut three = Equipment::default();
+    three.actuators.wheels = List::new(&axes.map(wheel));
+    Capability::of(&three, p_BScm_B)
 }
 
 fn kind(equipment: &Equipment) -> SetKind {
@@ -136,16 +172,13 @@ fn task_outcome(study: &Study, task: &Task, flown: &[CaseOutcome]) -> TaskOutcom
     let vehicle = study.mission.vehicle(task.cases[study.reference]);
     let own_motion = is_own_motion(reference);
     let demand = demand(reference);
-    let start = Start { vehicle, state: state(vehicle, reference) };
+    let tank = study.mission.equipment(task.cases[study.reference]).actuators.tank;
+    let start = Start::new(vehicle, tank, &state(vehicle, reference));
     let centre = start.centre_of_mass(&task.file);
     let mut others = flown[1..].iter();
     let verdicts = (0..study.sets.len()).map(|k| {
         let ideal = k == study.reference;
-        let able = if ideal {
-            Capability::ideal()
-        } else {
-            Capability::of(study.mission.equipment(task.cases[k]), centre)
-        };
+        let able = if ideal { Capability::ideal() } else { able(study, task.cases[k], centre) };
         let judged = judge(&demand, &able, own_motion);
         // The reference is the first of the flights, wherever it stands among the sets.
         let flight = if ideal { task.closed_loop.then_some(reference) } else { others.next() };

@@ -2,12 +2,12 @@
 
 use crate::hand_check::TaskFile;
 use crate::own_units::without_own_units;
-use std::path::PathBuf;
-use wrasse_document::{Complaint, Document, Step, at, closest};
+use crate::sets::{Catalogue, SetRow, as_fitted, fed, of_catalogue, shipped, with_sets};
+use crate::study_table::{Axes, complaints};
+use std::path::{Path, PathBuf};
+use toml::{Table, Value};
+use wrasse_document::{Complaint, Document, at};
 use wrasse_mission::{Mission, read_mission};
-
-/// The sets that a mission without its own is weighed against.
-const SETS: &str = include_str!("../../../studies/sets.toml");
 
 /// A mission file, checked, with its cases told apart by task and set.
 #[derive(Debug)]
@@ -18,6 +18,8 @@ pub struct Study {
     /// Number of the reference among them.
     pub(crate) reference: usize,
     pub(crate) tasks: Vec<Task>,
+    /// Sets that this vehicle cannot be flown with, and why.
+    pub(crate) left_out: Vec<(String, String)>,
 }
 
 /// A task, and its case with each set.
@@ -33,69 +35,140 @@ pub(crate) struct Task {
     pub(crate) cases: Vec<usize>,
 }
 
-/// The study that a file describes: a mission with a table `[study]`, or any mission, which gets the
-/// sets of `studies/sets.toml`.
+/// The study that a file describes: a mission with a table `[study]`, or any mission, which is weighed
+/// with its own units and with the sets of `studies/sets.toml`.
 ///
 /// # Errors
 /// All complaints at once.
 pub fn read_study(path: impl Into<PathBuf>, text: &str) -> Result<Study, Vec<Complaint>> {
+    read_study_with(path, text, &[])
+}
+
+/// The same, but that a mission without its own sets is weighed against all units of these kinds.
+///
+/// # Errors
+/// All complaints at once.
+pub fn read_study_with(
+    path: impl Into<PathBuf>,
+    text: &str,
+    catalogue: &[Catalogue],
+) -> Result<Study, Vec<Complaint>> {
     let path = path.into();
-    let mut mission = read_mission(path.clone(), text)?;
-    let mut whole = text.to_owned();
+    let document = Document::parse(path.clone(), text)?;
+    let wrong = complaints(&document);
+    let mission = match read_mission(path.clone(), text) {
+        Ok(mission) if wrong.is_empty() => mission,
+        Ok(_) => return Err(wrong),
+        Err(found) => return Err([found, wrong].concat()),
+    };
     if mission.study.is_none() {
-        whole = format!("{}\n{SETS}", without_own_units(text));
-        mission = read_mission(path.clone(), whole.as_str())?;
-        text.clone_into(&mut mission.text);
+        return laid_over(&path, text, &mission, catalogue);
     }
-    let document = Document::parse(path, whole)?;
-    let Some(table) = mission.study.clone() else {
-        let message = "a mission without a table [study]".to_owned();
-        return Err(vec![document.error(&[], message, "here")]);
-    };
-    let axes = document.read_in_part::<Axes>().value.unwrap_or_default();
-    let complaints = complaints(&table, &axes, &document);
-    if complaints.is_empty() { Ok(study_of(mission, &table, &document)) } else { Err(complaints) }
+    if !catalogue.is_empty() {
+        let message = "the study brings its own sets".to_owned();
+        let help = "leave out --catalogue, or the table [study] and the axis of its sets";
+        return Err(vec![document.error(at!["study"], message, "here").with_help(help)]);
+    }
+    beside_own_units(&path, text, mission, &document)
 }
 
-/// What the table names must be there.
-fn complaints(table: &wrasse_mission::Study, axes: &Axes, document: &Document) -> Vec<Complaint> {
-    let mut complaints = vec![];
-    let rows_of = |name: &str| axes.compare.iter().find(|a| a.axis == name).map(|a| &a.row);
-    let names: Vec<&str> = axes.compare.iter().map(|a| a.axis.as_str()).collect();
-    let mut missing = |path: &[Step<'_>], what: &str, name: &str, there: &[&str]| {
-        let message = format!("there is no {what} {name:?}");
-        let help = match closest(name, there.iter().copied()) {
-            Some(near) => format!("did you mean {near:?}?"),
-            None => format!("there are: {}", there.join(", ")),
-        };
-        complaints.push(document.error(path, message, "not there").with_help(help));
-    };
-    let all = |rows: &[Row]| rows.iter().map(|row| row.name.clone()).collect::<Vec<_>>();
-    match rows_of(&table.sets).map(|rows| all(rows)) {
-        None => missing(at!["study", "sets"], "compared axis", &table.sets, &names),
-        Some(rows) if !rows.contains(&table.reference) => {
-            let rows: Vec<&str> = rows.iter().map(String::as_str).collect();
-            missing(at!["study", "reference"], "set", &table.reference, &rows);
-        }
-        Some(_) => {}
+/// A mission with sets that it does not bring itself. Those that its vehicle cannot be flown with are
+/// left out.
+fn laid_over(
+    path: &Path,
+    text: &str,
+    mission: &Mission,
+    catalogue: &[Catalogue],
+) -> Result<Study, Vec<Complaint>> {
+    let (plain, own) = without_own_units(text);
+    let (reference, mut sets) = shipped();
+    if !catalogue.is_empty() {
+        let of_kind = |kind: &Catalogue| of_catalogue(*kind, mission.vehicle(0));
+        sets = catalogue.iter().flat_map(of_kind).collect();
     }
-    let tasks = table.tasks.as_ref().map(|name| (name, rows_of(name).map(|rows| all(rows))));
-    match tasks {
-        Some((name, None)) => missing(at!["study", "tasks"], "compared axis", name, &names),
-        Some((_, Some(rows))) => {
-            let rows: Vec<&str> = rows.iter().map(String::as_str).collect();
-            for (i, task) in table.closed_loop.iter().enumerate() {
-                if !rows.contains(&task.as_str()) {
-                    missing(at!["study", "closed_loop", i], "task", task, &rows);
+    let mut sets = fed(sets, mission.equipment(0).actuators.tank);
+    sets.insert(0, as_fitted(mission, 0, &own));
+    // What is wrong with the reference is wrong with the mission.
+    read_mission(path, with_sets(&plain, &[&reference]))?;
+    let all: Vec<&SetRow> = core::iter::once(&reference).chain(&sets).collect();
+    let mut whole = with_sets(&plain, &all);
+    let mut read = read_mission(path, whole.as_str());
+    let mut left_out = vec![];
+    if read.is_err() {
+        let mut is_flown =
+            |set: &SetRow| match read_mission(path, with_sets(&plain, &[&reference, set])) {
+                Ok(_) => true,
+                Err(found) => {
+                    left_out.push((set.name.clone(), reason(&found)));
+                    false
                 }
-            }
-        }
-        None => {}
+            };
+        let mut kept = vec![&reference];
+        kept.extend(sets.iter().filter(|set| is_flown(set)));
+        whole = with_sets(&plain, &kept);
+        read = read_mission(path, whole.as_str());
     }
-    complaints
+    let mut mission = read?;
+    text.clone_into(&mut mission.text);
+    let document = Document::parse(path, whole)?;
+    Ok(Study { left_out, ..study_of(mission, &document) })
 }
 
-fn study_of(mission: Mission, table: &wrasse_mission::Study, document: &Document) -> Study {
+/// The first of what is complained of, in a line.
+fn reason(found: &[Complaint]) -> String {
+    found.first().map_or(String::new(), |complaint| complaint.message.clone())
+}
+
+/// A study with its own sets, and with the vehicle's own units if none of them are these.
+fn beside_own_units(
+    path: &Path,
+    text: &str,
+    mission: Mission,
+    document: &Document,
+) -> Result<Study, Vec<Complaint>> {
+    let Some(row) = own_units_missing(&mission) else { return Ok(study_of(mission, document)) };
+    let Some(whole) = with_row(text, &mission, &row) else {
+        return Ok(study_of(mission, document));
+    };
+    match read_mission(path, whole.as_str()) {
+        Ok(mut more) => {
+            text.clone_into(&mut more.text);
+            Ok(study_of(more, &Document::parse(path, whole)?))
+        }
+        Err(found) => {
+            let left_out = vec![(row.name, reason(&found))];
+            Ok(Study { left_out, ..study_of(mission, document) })
+        }
+    }
+}
+
+/// The units of the vehicle as a set, where it has some and no set of the study is these.
+fn own_units_missing(mission: &Mission) -> Option<SetRow> {
+    let table = mission.study.as_ref()?;
+    let is_reference = |case: &usize| {
+        mission.case_labels(*case).contains(&(table.sets.clone(), table.reference.clone()))
+    };
+    let cases = || 0..mission.case_count();
+    let reference = cases().find(is_reference)?;
+    let own = &mission.equipment(reference).actuators;
+    let mut others = cases().filter(|case| !is_reference(case));
+    let missing = !own.is_empty() && others.all(|case| mission.equipment(case).actuators != *own);
+    missing.then(|| as_fitted(mission, reference, &Table::new()))
+}
+
+/// The text of a study with one more set.
+fn with_row(text: &str, mission: &Mission, row: &SetRow) -> Option<String> {
+    let sets = &mission.study.as_ref()?.sets;
+    let mut file = text.parse::<Table>().ok()?;
+    let axes = file.get_mut("compare")?.as_array_mut()?;
+    let named = |axis: &&mut Value| axis.get("axis").and_then(Value::as_str) == Some(sets);
+    axes.iter_mut().find(named)?.get_mut("row")?.as_array_mut()?.push(row.value());
+    Some(file.to_string())
+}
+
+/// The cases of a mission told apart by task and set.
+fn study_of(mission: Mission, document: &Document) -> Study {
+    let table = mission.study.clone().expect("whoever calls has seen it");
     let labels_of = |case: usize| mission.case_labels(case).iter();
     let mut sets: Vec<String> = vec![];
     let mut tasks: Vec<Task> = vec![];
@@ -118,7 +191,7 @@ fn study_of(mission: Mission, table: &wrasse_mission::Study, document: &Document
         tasks.push(Task { labels, file, closed_loop, cases: vec![case] });
     }
     let reference = sets.iter().position(|set| *set == table.reference).unwrap_or(0);
-    Study { mission, sets, reference, tasks }
+    Study { mission, sets, reference, tasks, left_out: vec![] }
 }
 
 /// The document with the rows of a task laid over it, as far as a hand reads it.
@@ -134,24 +207,6 @@ fn task_file(document: &Document, labels: &[(String, String)]) -> TaskFile {
     }
     // The mission has been checked: what this does not know is not wrong.
     varied.read_in_part().value.unwrap_or_default()
-}
-
-/// The axes of a file, as far as their names go.
-#[derive(Debug, Default, serde::Deserialize, schemars::JsonSchema)]
-struct Axes {
-    #[serde(default)]
-    compare: Vec<Axis>,
-}
-
-#[derive(Debug, serde::Deserialize, schemars::JsonSchema)]
-struct Axis {
-    axis: String,
-    row: Vec<Row>,
-}
-
-#[derive(Debug, serde::Deserialize, schemars::JsonSchema)]
-struct Row {
-    name: String,
 }
 
 impl Study {

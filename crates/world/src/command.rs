@@ -74,13 +74,17 @@ impl<const J: usize> World<J> {
         self.command_equipment(actuators, (gone, period), cut);
     }
 
-    /// Set wheels, gyros and thrusters for a period (s), `gone` (s) after the last began.
+    /// Set wheels, gyros and thrusters for a period (s), `gone` (s) after the last began. On a base that
+    /// is held they do not act, whatever they are told.
     fn command_equipment(
         &mut self,
         told: &ActuatorCommand<f64>,
         (gone, period): (f64, f64),
         cut: &mut Vec<Saturation>,
     ) {
+        if self.base == BaseAttitude::Held {
+            return;
+        }
         if !(self.wheels.is_empty() && self.gyros.count() == 0) {
             let w_NB_B = self.state().V_NB_B.angular;
             let s = &self.system;

@@ -1,6 +1,6 @@
 //! What can break, and what its breaking does.
 
-use crate::setup::Drive;
+use crate::setup::{BaseAttitude, Drive};
 use crate::thrusters::Jammed;
 use crate::world::World;
 use wrasse_dynamics::{JointDrive, PerBody, State, driven_dynamics, kinematics};
@@ -20,8 +20,12 @@ pub enum Failure {
 }
 
 impl<const J: usize> World<J> {
-    /// Let something break. What there is not cannot break: nothing happens.
+    /// Let something break. What there is not cannot break, and what does not act, on a base that is
+    /// held, breaks unseen: nothing happens.
     pub fn fail(&mut self, failure: Failure) {
+        if self.base == BaseAttitude::Held {
+            return;
+        }
         match failure {
             Failure::Wheel(i) => self.wheels.break_motor(i),
             Failure::Gimbal(i) if i < self.gyros.count() => {

@@ -2,6 +2,7 @@
 
 use crate::flow::Flow;
 use crate::free_flight::FreeFlight;
+use crate::setup::BaseAttitude;
 use crate::world::{SystemState, World};
 use wrasse_dynamics::{BodyId, Dynamics, Kinematics, Outside, PerBody, State, kinematics};
 use wrasse_hardware::{GYROS, WHEELS};
@@ -53,8 +54,14 @@ impl<const J: usize> World<J> {
     ) -> Acting<J> {
         let (w, angle, rate) =
             (k.V_NB_B(BodyId::Base).angular, system.gimbal_angle, system.gimbal_rate);
-        let wheel_torque = self.wheels.torques(&system.wheel_momentum, w);
-        let gimbal_acceleration = self.gyros.accelerations(&angle, &rate, w);
+        // On a base that is held nothing turns against it; what they hold stays, for w is zero.
+        let (wheel_torque, gimbal_acceleration) = match self.base {
+            BaseAttitude::Held => ([0.0; WHEELS], [0.0; GYROS]),
+            BaseAttitude::Controlled | BaseAttitude::Free => (
+                self.wheels.torques(&system.wheel_momentum, w),
+                self.gyros.accelerations(&angle, &rate, w),
+            ),
+        };
         // What they hold, h, turns with the base: the bodies feel -ḣ - w × h.
         let hdot_B = self.wheels.together_B(&wheel_torque)
             + self.gyros.change_B(angle, rate, &gimbal_acceleration);

@@ -8,7 +8,8 @@ use wrasse_spatial::SpatialForce;
 /// What becomes of the base's attitude.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BaseAttitude {
-    /// Held exactly; the torque that this takes is recorded as the actuator's.
+    /// Held exactly; the torque that this takes is recorded as the actuator's. Whatever holds it, the
+    /// vehicle weighs the same: units and propellant are part of it.
     Held,
     /// Turned by the ideal actuator as it is commanded, within its limits.
     Controlled,
@@ -62,7 +63,8 @@ pub struct WorldSetup<'a, const J: usize> {
     pub limits: &'a [JointLimits<f64>],
     /// The ideal attitude actuator, if it has one.
     pub actuator: Option<AttitudeActuator<f64>>,
-    /// Wheels, gyros, thrusters. A held attitude needs none: there they are left out.
+    /// Wheels, gyros, thrusters. Where the attitude is held they are matter that does nothing: wheels
+    /// keep their speeds, gimbals their angles, and thrusters stay shut.
     pub equipment: Equipment,
     /// What becomes of the base's attitude.
     pub base: BaseAttitude,

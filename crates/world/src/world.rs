@@ -130,11 +130,7 @@ impl<const J: usize> fmt::Debug for World<J> {
 impl<const J: usize> World<J> {
     /// A world at time zero.
     pub fn new(setup: &WorldSetup<'_, J>) -> Self {
-        // What holds an attitude exactly needs no equipment, and equipment cannot help it.
-        let equipment = match setup.base {
-            BaseAttitude::Held => Equipment::default(),
-            BaseAttitude::Free | BaseAttitude::Controlled => setup.equipment,
-        };
+        let equipment = setup.equipment;
         let wheels = Wheels::new(&equipment.actuators.wheels);
         let tank = equipment
             .actuators

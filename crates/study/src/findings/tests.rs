@@ -3,7 +3,7 @@
 use super::*;
 use crate::judgement::Both;
 
-fn set(name: &str, kind: SetKind) -> SetCard {
+pub(crate) fn set(name: &str, kind: SetKind) -> SetCard {
     SetCard {
         name: name.into(),
         kind,
@@ -20,7 +20,7 @@ fn set(name: &str, kind: SetKind) -> SetCard {
     }
 }
 
-fn verdict(set: &str, torque: Answer, momentum: Answer) -> SetVerdict {
+pub(crate) fn verdict(set: &str, torque: Answer, momentum: Answer) -> SetVerdict {
     let none = Both { plain: None, best: None };
     SetVerdict {
         set: set.into(),
@@ -39,7 +39,7 @@ fn verdict(set: &str, torque: Answer, momentum: Answer) -> SetVerdict {
     }
 }
 
-fn task(name: &str, verdicts: Vec<SetVerdict>) -> TaskOutcome {
+pub(crate) fn task(name: &str, verdicts: Vec<SetVerdict>) -> TaskOutcome {
     TaskOutcome {
         name: name.into(),
         labels: vec![],
@@ -54,6 +54,20 @@ fn task(name: &str, verdicts: Vec<SetVerdict>) -> TaskOutcome {
         tool_error_mm: 0.1,
         verdicts,
         demand: crate::demand::Demand::default(),
+    }
+}
+
+/// A flight that holds its requirements.
+pub(crate) fn flown() -> Flown {
+    Flown {
+        tool_error_mm: 0.4,
+        tool_error_at_end_mm: 0.1,
+        attitude_error_deg: 0.01,
+        propellant_kg: None,
+        requirements_hold: true,
+        ended: None,
+        limit: None,
+        closes: true,
     }
 }
 
@@ -93,20 +107,11 @@ fn the_claim_is_counted_where_it_holds_and_where_it_does_not() {
 fn what_was_flown_is_told_by_its_tool_error() {
     let sets = SETS.map(|(name, kind)| set(name, kind));
     let mut one = verdict("gyros", Answer::Yes, Answer::Yes);
-    one.flown = Some(Flown {
-        tool_error_mm: 0.4,
-        tool_error_at_end_mm: 0.1,
-        attitude_error_deg: 0.01,
-        propellant_kg: None,
-        requirements_hold: true,
-        ended: None,
-        limit: None,
-        closes: true,
-    });
+    one.flown = Some(flown());
     let tasks = [task("fast", vec![verdict("wheels", Answer::No, Answer::Yes), one])];
     let all = findings(Some(ClaimIs::GyrosNeeded), &sets, &tasks);
     let error = text(&all, "tool error decides").unwrap();
-    let told = "Gyros: suffice, 0.4 to 0.4 mm (requirements hold in 1 of 1 flights).";
+    let told = "Gyros: suffice, 0.4 mm (requirements hold in 1 of 1 flights).";
     assert!(error.text.contains(told) && !error.text.contains("Wheels"), "{error:?}");
 }
 
@@ -181,4 +186,16 @@ fn a_task_that_asks_for_nothing_is_said_to_and_not_counted() {
     assert!(told.text.starts_with("1 of 2 tasks") && told.tasks == ["idle"], "{told:?}");
     assert_eq!(text(&all, "wheels suffice").unwrap().tasks, ["light"]);
     assert!(text(&all, "wheels suffice").unwrap().text.starts_with("In 1 of 1"));
+}
+
+/// "0.00017 to 0.00017 mm" was told of flights whose vehicle is known to a few percent.
+#[test]
+fn findings_have_two_digits_and_no_error_below_what_can_be_built() {
+    assert_eq!(
+        ["717.3", "12345", "48", "16.8", "0.0123"].map(|x| rounded(x.parse().unwrap())),
+        ["720", "12000", "48", "17", "0.012"]
+    );
+    assert_eq!(span(1.7e-4, 1.73e-4, FINEST_MM), "less than 0.001");
+    assert_eq!(span(1.7e-4, 26.7, FINEST_MM), "less than 0.001 to 27");
+    assert_eq!(span(0.4, 0.401, FINEST_MM), "0.4");
 }
