@@ -38,7 +38,7 @@ impl Check {
                 complain(&complaints);
             }
             match what {
-                Some(what) => say(&visible(&format!("{}: {what}", file.display()))),
+                Some(what) => say(&format!("{}: {what}", visible(&file.to_string_lossy()))),
                 None => all_usable = false,
             }
         }
@@ -69,7 +69,8 @@ fn findings(file: &PathBuf, text: String) -> (Vec<Complaint>, Option<String>) {
         Ok(vehicle) => {
             let joints = vehicle.robot.joint_count();
             let mass = vehicle.robot.mass();
-            let what = format!("vehicle {}, {joints} moving joints, {mass:.2} kg", vehicle.name);
+            let name = visible(&vehicle.name);
+            let what = format!("vehicle {name}, {joints} moving joints, {mass:.2} kg");
             (vehicle.remarks, Some(what))
         }
         Err(complaints) => (complaints, None),
