@@ -52,7 +52,8 @@ fn findings(file: &PathBuf, text: String) -> (Vec<Complaint>, Option<String>) {
         return match read_mission(file, text) {
             Ok(mission) => {
                 let loops = mission.sampled_loops(0);
-                let loops: String = loops.iter().map(|l| format!("\n  {}", l.text())).collect();
+                let loops: Vec<_> = loops.iter().map(|l| format!("\n  {}", l.text())).collect();
+                let loops = loops.concat();
                 let what = format!("a mission of {} case(s)", mission.case_count());
                 (mission.remarks, Some(format!("{what}; closed once a period:{loops}")))
             }
