@@ -39,7 +39,7 @@ impl Check {
                 complain(&complaints);
             }
             match what {
-                Some(what) => say(&visible(&format!("{}: {what}", file.display()))),
+                Some(what) => say(&format!("{}: {what}", visible(&file.to_string_lossy()))),
                 None => all_usable = false,
             }
         }
@@ -54,7 +54,8 @@ fn findings(file: &PathBuf, text: String) -> (Vec<Complaint>, Option<String>) {
         return match read_mission(file, text) {
             Ok(mission) if of_study.is_empty() => {
                 let loops = mission.sampled_loops(0);
-                let loops: String = loops.iter().map(|l| format!("\n  {}", l.text())).collect();
+                let loops: Vec<_> = loops.iter().map(|l| format!("\n  {}", l.text())).collect();
+                let loops = loops.concat();
                 let what = format!("a mission of {} case(s)", mission.case_count());
                 (mission.remarks, Some(format!("{what}; closed once a period:{loops}")))
             }
@@ -72,7 +73,8 @@ fn findings(file: &PathBuf, text: String) -> (Vec<Complaint>, Option<String>) {
         Ok(vehicle) => {
             let joints = vehicle.robot.joint_count();
             let mass = vehicle.robot.mass();
-            let what = format!("vehicle {}, {joints} moving joints, {mass:.2} kg", vehicle.name);
+            let name = visible(&vehicle.name);
+            let what = format!("vehicle {name}, {joints} moving joints, {mass:.2} kg");
             (vehicle.remarks, Some(what))
         }
         Err(complaints) => (complaints, None),

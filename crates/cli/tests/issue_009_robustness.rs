@@ -372,7 +372,10 @@ fn an_interrupted_sweep_says_what_it_keeps_and_ends_with_130() {
 #[test]
 fn complaints_take_the_time_of_their_number_and_not_of_its_square() {
     let folder = Folder::new();
-    let toml = |count: usize| -> String { (0..count).map(|i| format!("k{i} = 1\n")).collect() };
+    let toml = |count: usize| {
+        let all: Vec<_> = (0..count).map(|i| format!("k{i} = 1\n")).collect();
+        all.concat()
+    };
     let urdf = |count: usize| {
         let each = |i| {
             format!(
@@ -380,8 +383,8 @@ fn complaints_take_the_time_of_their_number_and_not_of_its_square() {
                  <child link='c{i}'/></joint>\n"
             )
         };
-        let all: String = (0..count).map(each).collect();
-        format!("<robot name='a'>{all}</robot>")
+        let all: Vec<_> = (0..count).map(each).collect();
+        format!("<robot name='a'>{}</robot>", all.concat())
     };
     let time = |file: &str, text: String| {
         folder.put(file, &text);
