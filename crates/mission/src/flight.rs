@@ -11,7 +11,7 @@ use crate::saturations::{EquipmentLimits, describe};
 use crate::sensing::{Refusals, Sensing};
 use wrasse_flight::{Command, FlightComputer};
 use wrasse_hardware::{GYROS, SetPoint, SetPointMotion, THRUSTERS, WHEELS};
-use wrasse_spatial::{Pose, Quat, Vec3};
+use wrasse_spatial::{Quat, Vec3};
 use wrasse_vehicle::{JOINTS, VehicleRobot};
 use wrasse_world::{Drive, Saturation, Stepper, World};
 
@@ -51,8 +51,6 @@ pub(crate) struct Flight<'a> {
     pub(crate) floating: Vec<Option<usize>>,
     /// Payloads in the grips, in the world's order.
     pub(crate) holding: Vec<usize>,
-    /// Where each of them sits in its grip.
-    pub(crate) X_FT: Vec<Pose<f64>>,
     /// The vehicle that the computer believes in, with nothing in its grips and tank, where its masses
     /// are otherwise in truth.
     pub(crate) believed_alone: Option<VehicleRobot>,
@@ -100,7 +98,6 @@ impl<'a> Flight<'a> {
             unloads: false,
             estimate_error: f64::NAN,
             floating,
-            X_FT: vec![Pose::identity(); holding.len()],
             holding,
             believed_alone,
             cut: Vec::with_capacity(LIMITS),
@@ -148,9 +145,6 @@ impl<'a> Flight<'a> {
 
     /// One control period of the world; why the flight ends, if it does.
     pub(crate) fn period(&mut self, command: &Command<f64, JOINTS>) -> Option<End> {
-        if let Some(stop) = command.grip.and_then(|grip| self.grip(grip, command.phase)) {
-            return Some(stop);
-        }
         let period = self.case.period();
         let drives: [Drive; JOINTS] = core::array::from_fn(|j| {
             if self.case.torque[j] {

@@ -79,6 +79,11 @@ pub(crate) fn fly(
             snapshots.push(snapshot(case, &flight.world, &flight.payload_poses(), tips));
         }
         last = Some(seen);
+        if let Some(stop) = flight.grip(&command) {
+            end = stop;
+            break;
+        }
+        flight.world.update_ledger(&mut ledger);
         progress(done as f64 / plan.periods as f64);
     }
     flight.sum_up();

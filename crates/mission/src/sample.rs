@@ -226,6 +226,11 @@ fn fly_for_verdicts(case: &Case, plan: &Plan, planned: &SamplePlan<'_>) -> Flown
         let jacobian = || flight.computer.task_jacobian();
         let seen = observe(case, &truth, &command, &track, error, needs, &jacobian);
         watch.add_only(&planned.watched, command.phase, &seen.values);
+        if let Some(stop) = flight.grip(&command) {
+            end = stop;
+            break;
+        }
+        flight.world.update_ledger(&mut books);
     }
     (end, watch, ledger(&books, case.base).closes)
 }
