@@ -39,7 +39,7 @@ impl<T: Scalar, const J: usize> CarriedRates<T, J> {
 
     /// Whether they are gone at time `t` (s) of the phase.
     pub(crate) fn are_gone(&self, t: T) -> bool {
-        self.share(t) >= T::one()
+        t > self.fade
     }
 
     /// Joints that come to rest from them: rates `v (1 - s)³ (1 + 3 s)`, whose change begins gently.
@@ -111,7 +111,7 @@ mod tests {
         assert_eq!((stopped.v, stopped.vdot), ([0.0], [0.0]));
         assert!((stopped.q[0] - 0.78).abs() < 1e-15, "two fifths of 0.2 rad/s in 1 s: {stopped:?}");
         assert_eq!(carried().beside(&way, 2.0), way);
-        assert!(carried().are_gone(1.0) && !carried().are_gone(0.99));
+        assert!(carried().are_gone(1.01) && !carried().are_gone(1.0));
     }
 
     #[test]

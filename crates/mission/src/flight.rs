@@ -5,6 +5,7 @@ use crate::dead_band::DeadBand;
 use crate::limits_passed::Passed;
 use crate::mission::{Case, PayloadStart};
 use crate::outcome::{End, Event, EventKind};
+use crate::overlap::Overlap;
 use crate::plan::cannot_begin;
 use crate::read_base::Turning;
 use crate::saturations::{EquipmentLimits, describe};
@@ -60,6 +61,8 @@ pub(crate) struct Flight<'a> {
     /// What was already said of the current phase.
     pub(crate) said: Vec<Saturation>,
     pub(crate) said_passed: Vec<Passed>,
+    /// Tool and loads that were found inside the bus.
+    pub(crate) overlaps: Vec<Overlap>,
     pub(crate) events: Vec<Event>,
 }
 
@@ -104,6 +107,7 @@ impl<'a> Flight<'a> {
             set_points: core::array::from_fn(start),
             said: vec![],
             said_passed: vec![],
+            overlaps: vec![],
             events: vec![],
         };
         if case.believed.is_some() {
@@ -137,6 +141,10 @@ impl<'a> Flight<'a> {
                 end => end,
             }
         })?;
+        if let Some(what) = not_finite(self.case, &command) {
+            let reason = format!("the flight computer asks for what is not finite: {what}");
+            return Err(End::Breakdown { time_s: time, reason });
+        }
         let estimate = self.computer.navigation().attitude_estimate();
         self.estimate_error =
             estimate.map_or(f64::NAN, |e| (e.quat_NB.conjugate() * quat_NB).log().norm());
@@ -228,4 +236,31 @@ impl<'a> Flight<'a> {
             }
         }
     }
+}
+
+/// What of a command is not finite, if anything: no actuator can be told it.
+fn not_finite(case: &Case, command: &Command<f64, JOINTS>) -> Option<String> {
+    let is_bad = |x: &f64| !x.is_finite();
+    for j in case.vehicle.robot.joints() {
+        let SetPoint { position, rate, acceleration } = command.set_points[j];
+        let name = case.joint_name(j);
+        if is_bad(&command.effort[j]) {
+            return Some(format!("the effort of joint {name}"));
+        }
+        if [position, rate, acceleration].iter().any(is_bad) {
+            return Some(format!("the set-point of joint {name}"));
+        }
+    }
+    let (told, wanted) = (&command.actuators, &command.steering.wanted);
+    [
+        ("the torque on the base", &command.attitude_torque_B.to_array()[..]),
+        ("the torque of the steering", &wanted.torque.to_array()),
+        ("the force of the steering", &wanted.force.to_array()),
+        ("the torque of a wheel", &told.wheel_torque),
+        ("the rate of a gimbal", &told.gimbal_rate),
+        ("the time that a thruster is open", &told.thruster_on),
+    ]
+    .into_iter()
+    .find(|(_, numbers)| numbers.iter().any(is_bad))
+    .map(|(what, _)| what.to_owned())
 }

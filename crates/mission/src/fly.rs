@@ -5,6 +5,7 @@ use crate::flight::Flight;
 use crate::mission::Case;
 use crate::observe::{Needs, Observation, Track, Truth, observe};
 use crate::outcome::{DemandSample, End, Event, Snapshot, Telemetry};
+use crate::overlap::Overlap;
 use crate::picture::snapshot;
 use crate::plan::Plan;
 use crate::quantity::Watch;
@@ -18,6 +19,7 @@ pub(crate) struct Flown {
     pub(crate) watch: Watch,
     pub(crate) ledger: wrasse_world::Ledger,
     pub(crate) events: Vec<Event>,
+    pub(crate) overlaps: Vec<Overlap>,
     pub(crate) telemetry: Telemetry,
     pub(crate) snapshots: Vec<Snapshot>,
     pub(crate) demand: Vec<DemandSample>,
@@ -59,12 +61,13 @@ pub(crate) fn fly(
             end = stop;
             break;
         }
-        track.follow(&command, &flight.computer);
+        track.follow(&command, &flight.computer, &flight.world.system().quat_NB);
         flight.world.update_ledger(&mut ledger);
         let error = flight.estimate_error;
         let truth = Truth::of(&flight.world, Needs::ALL);
         let jacobian = || flight.computer.task_jacobian();
         let seen = observe(case, &truth, &command, &track, error, Needs::ALL, &jacobian);
+        flight.look_for_overlap(&seen, period == 0);
         flight.tell_limits(&seen);
         flight.tell_missing(&command);
         demand.push(DemandSample::of(flight.world.time(), &command, &seen));
@@ -92,6 +95,7 @@ pub(crate) fn fly(
         watch,
         ledger,
         events: flight.events,
+        overlaps: flight.overlaps,
         telemetry: recorder.finish(),
         snapshots,
         demand,
