@@ -7,6 +7,17 @@ use wrasse_spatial::Scalar;
 /// Time in which the rates fade (s).
 pub(crate) const FADE: f64 = 1.0;
 
+/// Share of a motion that is left at `s` of its way to rest (–), its integral from the start, and its
+/// derivative: `(1 - s)³ (1 + 3 s)`, whose change begins gently.
+pub(crate) fn to_rest<T: Scalar>(s: T) -> (T, T, T) {
+    let c = T::from_f64;
+    let (rest, three) = (T::one() - s, c(3.0) * s);
+    let square = rest * rest;
+    let fourth = square * square;
+    let integral = c(0.4) - fourth + c(0.6) * fourth * rest;
+    (square * rest * (T::one() + three), integral, c(-4.0) * three * square)
+}
+
 /// Rate up to which a joint counts as standing (rad/s or m/s): to stop it within a period of 10 ms
 /// takes 0.01 rad/s², the start of a slow move.
 const STANDING: f64 = 1e-4;
@@ -42,15 +53,10 @@ impl<T: Scalar, const J: usize> CarriedRates<T, J> {
         t > self.fade
     }
 
-    /// Joints that come to rest from them: rates `v (1 - s)³ (1 + 3 s)`, whose change begins gently.
+    /// Joints that come to rest from them.
     pub(crate) fn to_rest(self, t: T) -> JointSetPoint<T, J> {
-        let (c, s) = (T::from_f64, self.share(t));
-        let rest = T::one() - s;
-        let (square, three) = (rest * rest, c(3.0) * s);
-        let fourth = square * square;
-        let way = self.fade * (c(0.4) - fourth + c(0.6) * fourth * rest);
-        let rate = square * rest * (T::one() + three);
-        let acceleration = c(-4.0) * three * square / self.fade;
+        let (rate, way, acceleration) = to_rest(self.share(t));
+        let (way, acceleration) = (way * self.fade, acceleration / self.fade);
         JointSetPoint {
             q: core::array::from_fn(|j| self.q[j] + self.v[j] * way),
             v: self.v.map(|v| v * rate),

@@ -1,7 +1,7 @@
 //! What is asked of the arm: phases one after the other, and the path of the current one. It decides, so
 //! it takes single numbers; what it asks can be flown for many vehicles side by side.
 
-use crate::carried_rates::{CarriedRates, FADE};
+use crate::carried_rates::{CarriedRates, FADE, to_rest};
 use crate::computer::Setup;
 use crate::control_period::{Asked, PeriodMemory, at_rest};
 use crate::door::{Axes, Grip};
@@ -12,7 +12,7 @@ use crate::steering::{NoRelief, ReliefUse, ToolTask, posture_relief};
 use crate::tool_pose::joints_for_tool;
 use crate::trajectory::ToolMotion;
 use wrasse_dynamics::{Robot, State, kinematics};
-use wrasse_spatial::{Pose, Scalar, SpatialForce};
+use wrasse_spatial::{Pose, Quat, Scalar, SpatialForce};
 
 /// Time in which joints take up the rates that relieve the base (s).
 const RELIEF_APPROACH: f64 = 0.5;
@@ -24,6 +24,8 @@ pub struct Guidance<T, const J: usize> {
     pub(crate) path: Path<T, J>,
     /// What the joints' motion at the start of the phase adds to the path.
     carried: Option<CarriedRates<T, J>>,
+    /// The tool's motion once the joints have come to rest, where it is to come to rest too.
+    drift: Option<ToolMotion<T>>,
     /// Whether the phase still has to begin, once the joints have come to rest.
     waits: bool,
     /// Why the posture cannot relieve the base, if it was asked to.
@@ -45,7 +47,14 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
     /// These phases; those beyond [`PHASES`](crate::PHASES) are left out.
     pub fn new(phases: &[Phase<T, J>]) -> Self {
         let path = Path::Still(Held::Joints);
-        Self { sequence: Sequence::new(phases), path, carried: None, waits: false, no_relief: None }
+        Self {
+            sequence: Sequence::new(phases),
+            path,
+            carried: None,
+            drift: None,
+            waits: false,
+            no_relief: None,
+        }
     }
 
     /// Number of the current phase: that of the phases when all are done.
@@ -93,10 +102,11 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
             return Ok(None);
         };
         self.carried = self.carried_into(of, &phase).filter(|_| !waited);
+        self.drift = None;
         if let (Phase::MoveTool { .. }, Some(_)) = (phase, self.carried) {
             // A line of the tool begins at rest.
-            (self.waits, self.path) = (true, Path::Still(Held::Joints));
-            self.sequence.lasts(T::from_f64(FADE), period)?;
+            (self.waits, self.path) = (true, Path::Still(Held::Tool));
+            self.sequence.lasts(T::from_f64(2.0 * FADE), period)?;
             return Ok(None);
         }
         let mut grip = None;
@@ -146,11 +156,16 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
     /// What is asked of the arm at time `t` (s) of the phase.
     fn asked(&mut self, of: &Guided<'_, T, J>, t: T, F_E: &SpatialForce<T>) -> Asked<T, J> {
         self.no_relief = None;
+        let slow = T::from_f64(2.0 * FADE);
         let carried = self.carried.filter(|carried| !carried.are_gone(t));
         match (self.path, carried) {
             (Path::Line(line, axes), _) => self.on_tool(of, line.at(t), axes, t),
             (Path::Still(Held::Nothing), _) => Asked::Coast,
             (Path::Still(_), Some(carried)) => Asked::Joints(carried.to_rest(t)),
+            (Path::Still(Held::Tool), None) if self.carried.is_some() && t <= slow => {
+                let reference = self.tool_to_rest(of, t);
+                self.on_tool(of, reference, Axes::Inertial, t)
+            }
             (Path::Still(Held::Tool), None) => {
                 self.on_tool(of, at_rest(of.memory.reference.X_NE), of.memory.axes, t)
             }
@@ -161,6 +176,27 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
                 let (qdot, qddot) = self.relieve(of, task, gain, t, F_E);
                 Asked::Rates { qdot, qddot }
             }
+        }
+    }
+
+    /// Joints that stand carry the tool on with a base that moves: at time `t` (s) of the phase, on its
+    /// way to rest in inertial space.
+    fn tool_to_rest(&mut self, of: &Guided<'_, T, J>, t: T) -> ToolMotion<T> {
+        let fade = T::from_f64(FADE);
+        let drift = *self.drift.get_or_insert_with(|| {
+            let state = of.memory.believed_state();
+            let k = kinematics(of.robot, &state);
+            let (X_NE, V_NE_N) =
+                (k.pose(&of.setup.assignment.tool), k.velocity(&of.setup.assignment.tool));
+            ToolMotion { V_NE_N, ..at_rest(X_NE) }
+        });
+        let (rate, way, acceleration) = to_rest((t - fade) / fade);
+        let (V, way) = (drift.V_NE_N, way * fade);
+        let turn = Quat::exp(V.angular * way).to_matrix();
+        ToolMotion {
+            X_NE: Pose::new(turn * drift.X_NE.rotation, drift.X_NE.translation + V.linear * way),
+            V_NE_N: V * rate,
+            Vdot_NE_N: V * (acceleration / fade),
         }
     }
 

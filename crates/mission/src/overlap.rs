@@ -48,18 +48,9 @@ impl Flight<'_> {
         let X_BN = seen.state.X_NB.inverse();
         let p_BE = (X_BN * seen.X_NE).translation;
         self.found_inside(None, first, |solid| solid.depth(p_BE));
-        if self.holding.is_empty() {
-            return;
-        }
-        let k = kinematics(self.world.robot(), &seen.state);
-        let boxes =
-            self.holding.iter().zip(self.world.held()).filter_map(|(&i, (frame, matter))| {
-                let edges = Vec3::from_array(self.case.payloads[i].box_m?);
-                let X = X_BN * k.pose(frame);
-                let X = Pose::new(X.rotation, X.point(matter.M_F_F.centre_of_mass()));
-                Some((i, X, edges))
-            });
-        for (i, X, edges) in boxes.collect::<Vec<_>>() {
+        for number in 0..self.holding.len() {
+            let Some((i, X_NL, edges)) = self.held_box(seen, number) else { continue };
+            let X = X_BN * X_NL;
             let smaller = edges.map(|x| (x - 2.0 * TOUCHING).max(0.0));
             let inner = Solid { X, kind: ShapeKind::Box(smaller) };
             let whole = Solid { X, kind: ShapeKind::Box(edges) };
@@ -67,6 +58,16 @@ impl Flight<'_> {
                 if inner.overlaps(solid) { whole.shift_apart(solid) } else { 0.0 }
             });
         }
+    }
+
+    /// What is held under this number: which payload, the pose of its box, and its edges (m).
+    fn held_box(&self, seen: &Observation, number: usize) -> Option<(usize, Pose<f64>, Vec3<f64>)> {
+        let i = self.holding[number];
+        let edges = Vec3::from_array(self.case.payloads[i].box_m?);
+        let (frame, matter) = &self.world.held()[number];
+        let X = kinematics(self.world.robot(), &seen.state).pose(frame);
+        let middle = X.point(matter.M_F_F.centre_of_mass());
+        Some((i, Pose::new(X.rotation, middle), edges))
     }
 
     fn found_inside(

@@ -71,7 +71,7 @@ pub(crate) struct BodyFile {
     /// Why mass properties that no rigid body can have are to be used all the same.
     #[schemars(length(min = 1))]
     pub(crate) accept_nonphysical: Option<String>,
-    /// What to draw. It has no effect on the motion.
+    /// What to draw. It has no effect on the motion; tool and loads must stay outside of the base's.
     #[serde(default)]
     pub(crate) shape: Vec<ShapeFile>,
     /// Where these numbers come from.

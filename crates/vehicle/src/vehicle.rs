@@ -103,7 +103,7 @@ pub struct Provenance {
     pub source: String,
 }
 
-/// A body's outline, for drawings only.
+/// A body's outline: for drawings, and for what must stay outside of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shape {
     /// Name of the link.
