@@ -58,6 +58,8 @@ pub(crate) struct Flight<'a> {
     /// What limits cut in this period.
     pub(crate) cut: Vec<Saturation>,
     pub(crate) set_points: [SetPoint<f64>; JOINTS],
+    /// The phase that the last period belonged to.
+    phase: Option<usize>,
     /// What was already said of the current phase.
     pub(crate) said: Vec<Saturation>,
     pub(crate) said_passed: Vec<Passed>,
@@ -105,6 +107,7 @@ impl<'a> Flight<'a> {
             believed_alone,
             cut: Vec::with_capacity(LIMITS),
             set_points: core::array::from_fn(start),
+            phase: None,
             said: vec![],
             said_passed: vec![],
             overlaps: vec![],
@@ -121,7 +124,7 @@ impl<'a> Flight<'a> {
         self.events.push(Event { time_s: self.world.time(), kind, text });
     }
 
-    pub(crate) fn enter(&mut self, phase: usize) {
+    fn enter(&mut self, phase: usize) {
         self.said.clear();
         self.said_passed.clear();
         if let Some(phase) = self.case.phases.get(phase) {
@@ -130,7 +133,7 @@ impl<'a> Flight<'a> {
     }
 
     /// What the flight computer says to what the sensors say.
-    pub(crate) fn command(&mut self) -> Result<Command<f64, JOINTS>, End> {
+    fn command(&mut self) -> Result<Command<f64, JOINTS>, End> {
         let sensed = self.sensing.read(self.case, &self.world);
         let quat_NB = self.world.system().quat_NB;
         let time = self.world.time();
@@ -151,8 +154,18 @@ impl<'a> Flight<'a> {
         Ok(command)
     }
 
+    /// The next control period: what fails, what the flight computer says to it, and the world's answer.
+    pub(crate) fn next_period(&mut self) -> Result<Command<f64, JOINTS>, End> {
+        self.break_what_breaks();
+        let command = self.command()?;
+        if self.phase.replace(command.phase) != Some(command.phase) {
+            self.enter(command.phase);
+        }
+        self.period(&command).map_or(Ok(command), Err)
+    }
+
     /// One control period of the world; why the flight ends, if it does.
-    pub(crate) fn period(&mut self, command: &Command<f64, JOINTS>) -> Option<End> {
+    fn period(&mut self, command: &Command<f64, JOINTS>) -> Option<End> {
         let period = self.case.period();
         let drives: [Drive; JOINTS] = core::array::from_fn(|j| {
             if self.case.torque[j] {

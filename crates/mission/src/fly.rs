@@ -38,29 +38,20 @@ pub(crate) fn fly(
     let mut watch = Watch::new(case.quantities.clone(), case.phases.len());
     let mut ledger = flight.world.open_ledger();
     let (mut recorder, mut track) = (Recorder::default(), Track::default());
-    let (mut snapshots, mut last, mut phase) = (vec![], None, usize::MAX);
+    let (mut snapshots, mut last) = (vec![], None);
     let every = case.periods_per_sample();
     let mut end = End::Completed;
     let mut demand = vec![];
     let tool = flight.world.pose(flight.computer.tool()).translation;
     snapshots.push(snapshot(case, &flight.world, &flight.payload_poses(), [tool; 2]));
     for period in 0..plan.periods {
-        flight.break_what_breaks();
-        let command = match flight.command() {
+        let command = match flight.next_period() {
             Ok(command) => command,
             Err(stop) => {
                 end = stop;
                 break;
             }
         };
-        if command.phase != phase {
-            phase = command.phase;
-            flight.enter(phase);
-        }
-        if let Some(stop) = flight.period(&command) {
-            end = stop;
-            break;
-        }
         track.follow(&command, &flight.computer, &flight.world.system().quat_NB);
         flight.world.update_ledger(&mut ledger);
         let error = flight.estimate_error;
@@ -71,7 +62,7 @@ pub(crate) fn fly(
         flight.tell_limits(&seen);
         flight.tell_missing(&command);
         demand.push(DemandSample::of(flight.world.time(), &command, &seen));
-        watch.add(phase, &seen.values);
+        watch.add(command.phase, &seen.values);
         let done = period + 1;
         if done % every == 0 || done == plan.periods {
             recorder.sample(flight.world.time(), case, &seen, &ledger);

@@ -57,7 +57,7 @@ pub(crate) fn phase(
     } else if let Some(given) = &file.relieve {
         relieve(r, i, given, mission)
     } else if let Some(grasp) = &file.grasp {
-        grasp_bounds = bounds(r, i, grasp, mission);
+        grasp_bounds = Some(bounds(r, i, grasp, mission));
         let path = at!["phase", i, "grasp", "payload"];
         let told = Grip::Grasp(r.find(path, "payload", &grasp.payload, payloads)?);
         Phase::Grip { told, keep: held(grasp.keep) }
@@ -103,17 +103,12 @@ fn held(file: KeepFile) -> Held {
 }
 
 /// What a grasp allows: places by the tool that is guided, speeds by the phase.
-fn bounds(
-    r: &mut Reading<'_>,
-    i: usize,
-    grasp: &GraspFile,
-    mission: &MissionFile,
-) -> Option<GripOffset> {
+fn bounds(r: &mut Reading<'_>, i: usize, grasp: &GraspFile, mission: &MissionFile) -> GripOffset {
     let path = |key| [Step::Key("phase"), Step::Index(i), Step::Key("grasp"), Step::Key(key)];
     let turn = r.not_negative(&path("largest_turn_speed_deg_s"), grasp.largest_turn_speed_deg_s);
     let linear_speed = r.not_negative(&path("largest_speed_m_s"), grasp.largest_speed_m_s);
     let GraspBounds { distance, angle } = grasp_bounds(r.vehicle, mission.control.tool.as_deref());
-    Some(GripOffset { distance, angle, angular_speed: turn.to_radians(), linear_speed })
+    GripOffset { distance, angle, angular_speed: turn.to_radians(), linear_speed }
 }
 
 fn move_tool(

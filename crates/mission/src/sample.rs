@@ -216,18 +216,13 @@ fn fly_for_verdicts(case: &Case, plan: &Plan, planned: &SamplePlan<'_>) -> Flown
     let mut track = Track::default();
     let mut end = End::Completed;
     for period in 0..plan.periods {
-        flight.break_what_breaks();
-        let command = match flight.command() {
+        let command = match flight.next_period() {
             Ok(command) => command,
             Err(stop) => {
                 end = stop;
                 break;
             }
         };
-        if let Some(stop) = flight.period(&command) {
-            end = stop;
-            break;
-        }
         track.follow(&command, &flight.computer, &flight.world.system().quat_NB);
         flight.world.update_ledger(&mut books);
         let (error, needs) = (flight.estimate_error, planned.needs);
