@@ -1,6 +1,7 @@
 //! What is asked of the arm: phases one after the other, and the path of the current one. It decides, so
 //! it takes single numbers; what it asks can be flown for many vehicles side by side.
 
+use crate::carried_rates::{CarriedRates, FADE, to_rest};
 use crate::computer::Setup;
 use crate::control_period::{Asked, PeriodMemory, at_rest};
 use crate::door::{Axes, Grip};
@@ -11,7 +12,7 @@ use crate::steering::{NoRelief, ReliefUse, ToolTask, posture_relief};
 use crate::tool_pose::joints_for_tool;
 use crate::trajectory::ToolMotion;
 use wrasse_dynamics::{Robot, State, kinematics};
-use wrasse_spatial::{Pose, Scalar, SpatialForce};
+use wrasse_spatial::{Pose, Quat, Scalar, SpatialForce};
 
 /// Time in which joints take up the rates that relieve the base (s).
 const RELIEF_APPROACH: f64 = 0.5;
@@ -21,6 +22,12 @@ const RELIEF_APPROACH: f64 = 0.5;
 pub struct Guidance<T, const J: usize> {
     pub(crate) sequence: Sequence<T, J>,
     pub(crate) path: Path<T, J>,
+    /// What the joints' motion at the start of the phase adds to the path.
+    carried: Option<CarriedRates<T, J>>,
+    /// The tool's motion once the joints have come to rest, where it is to come to rest too.
+    drift: Option<ToolMotion<T>>,
+    /// Whether the phase still has to begin, once the joints have come to rest.
+    waits: bool,
     /// Why the posture cannot relieve the base, if it was asked to.
     pub(crate) no_relief: Option<NoRelief<T>>,
 }
@@ -40,7 +47,14 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
     /// These phases; those beyond [`PHASES`](crate::PHASES) are left out.
     pub fn new(phases: &[Phase<T, J>]) -> Self {
         let path = Path::Still(Held::Joints);
-        Self { sequence: Sequence::new(phases), path, no_relief: None }
+        Self {
+            sequence: Sequence::new(phases),
+            path,
+            carried: None,
+            drift: None,
+            waits: false,
+            no_relief: None,
+        }
     }
 
     /// Number of the current phase: that of the phases when all are done.
@@ -55,7 +69,7 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
 
     /// Whether all phases are done.
     pub fn is_done(&self) -> bool {
-        self.sequence.is_done()
+        self.sequence.is_done() && !self.waits
     }
 
     /// Before each period, once the memory has looked: begins the next phase if the last is over. What
@@ -78,31 +92,40 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
         self.asked(of, t, F_E)
     }
 
-    /// Begin the next phase; what it tells the grip.
+    /// Begin the next phase, or the one that waits; what it tells the grip.
     fn begin_next(&mut self, of: &Guided<'_, T, J>) -> Result<Option<Grip>, NoWay<T>> {
         let period = of.setup.tuning.period;
+        let waited = core::mem::take(&mut self.waits);
+        let next = if waited { self.sequence.again() } else { self.sequence.next() };
+        let Some(phase) = next else {
+            (self.path, self.carried) = (Path::Still(Held::Joints), None);
+            return Ok(None);
+        };
+        self.carried = self.carried_into(of, &phase).filter(|_| !waited);
+        self.drift = None;
+        if let (Phase::MoveTool { .. }, Some(_)) = (phase, self.carried) {
+            // A line of the tool begins at rest.
+            (self.waits, self.path) = (true, Path::Still(Held::Tool));
+            self.sequence.lasts(T::from_f64(2.0 * FADE), period)?;
+            return Ok(None);
+        }
         let mut grip = None;
-        let (path, duration) = match self.sequence.next() {
-            None => {
-                self.path = Path::Still(Held::Joints);
-                return Ok(None);
-            }
-            Some(Phase::MoveTool { target, axes, timing }) => {
+        let (path, duration) = match phase {
+            Phase::MoveTool { target, axes, timing } => {
                 let from = of.believed_tool(axes);
-                let line = timing.line(from, target.from(&from))?;
+                let line = timing.line(from, &target)?;
                 (Path::Line(line, axes), line.duration())
             }
-            Some(Phase::MoveJoints { to, timing }) => {
+            Phase::MoveJoints { to, timing } => {
                 let way = timing.way(of.memory.belief.q, joint_target(of, to)?)?;
+                self.carried = self.carried.map(|carried| carried.within(way.duration()));
                 (Path::Joints(way), way.duration())
             }
-            Some(Phase::Hold { what, duration }) => (Path::Still(what), duration),
-            Some(Phase::Relieve { task, gain, duration }) => {
-                (Path::Relief { task, gain }, duration)
-            }
-            Some(Phase::Grip(told)) => {
+            Phase::Hold { what, duration } => (Path::Still(what), duration),
+            Phase::Relieve { task, gain, duration } => (Path::Relief { task, gain }, duration),
+            Phase::Grip { told, keep } => {
                 grip = Some(told);
-                (Path::Still(Held::Joints), period)
+                (Path::Still(keep), period)
             }
         };
         self.path = path;
@@ -110,21 +133,70 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
         Ok(grip)
     }
 
+    /// The joints' motion as a phase begins, where its path does not go on with it: that of a tool goes
+    /// on with that of a tool, and what relieves the base begins with the rates that there are.
+    fn carried_into(
+        &self,
+        of: &Guided<'_, T, J>,
+        phase: &Phase<T, J>,
+    ) -> Option<CarriedRates<T, J>> {
+        let goes_on = match phase {
+            Phase::MoveTool { .. }
+            | Phase::Hold { what: Held::Tool, .. }
+            | Phase::Grip { keep: Held::Tool, .. } => self.follows_tool(),
+            Phase::Relieve { .. }
+            | Phase::Hold { what: Held::Nothing, .. }
+            | Phase::Grip { keep: Held::Nothing, .. } => true,
+            _ => false,
+        };
+        let (q, v) = (of.memory.belief.q, of.memory.motion.rate.qdot);
+        if goes_on { None } else { CarriedRates::of(q, v) }
+    }
+
     /// What is asked of the arm at time `t` (s) of the phase.
     fn asked(&mut self, of: &Guided<'_, T, J>, t: T, F_E: &SpatialForce<T>) -> Asked<T, J> {
         self.no_relief = None;
-        match self.path {
-            Path::Line(line, axes) => self.on_tool(of, line.at(t), axes, t),
-            Path::Still(Held::Tool) => {
+        let slow = T::from_f64(2.0 * FADE);
+        let carried = self.carried.filter(|carried| !carried.are_gone(t));
+        match (self.path, carried) {
+            (Path::Line(line, axes), _) => self.on_tool(of, line.at(t), axes, t),
+            (Path::Still(Held::Nothing), _) => Asked::Coast,
+            (Path::Still(_), Some(carried)) => Asked::Joints(carried.to_rest(t)),
+            (Path::Still(Held::Tool), None) if self.carried.is_some() && t <= slow => {
+                let reference = self.tool_to_rest(of, t);
+                self.on_tool(of, reference, Axes::Inertial, t)
+            }
+            (Path::Still(Held::Tool), None) => {
                 self.on_tool(of, at_rest(of.memory.reference.X_NE), of.memory.axes, t)
             }
-            Path::Joints(path) => Asked::Joints(path.at(t)),
-            Path::Relief { task, gain } => {
+            (Path::Still(Held::Joints), None) => Asked::Still,
+            (Path::Joints(path), None) => Asked::Joints(path.at(t)),
+            (Path::Joints(path), Some(carried)) => Asked::Joints(carried.beside(&path.at(t), t)),
+            (Path::Relief { task, gain }, _) => {
                 let (qdot, qddot) = self.relieve(of, task, gain, t, F_E);
                 Asked::Rates { qdot, qddot }
             }
-            Path::Still(Held::Joints) => Asked::Still,
-            Path::Still(Held::Nothing) => Asked::Coast,
+        }
+    }
+
+    /// Joints that stand carry the tool on with a base that moves: at time `t` (s) of the phase, on its
+    /// way to rest in inertial space.
+    fn tool_to_rest(&mut self, of: &Guided<'_, T, J>, t: T) -> ToolMotion<T> {
+        let fade = T::from_f64(FADE);
+        let drift = *self.drift.get_or_insert_with(|| {
+            let state = of.memory.believed_state();
+            let k = kinematics(of.robot, &state);
+            let (X_NE, V_NE_N) =
+                (k.pose(&of.setup.assignment.tool), k.velocity(&of.setup.assignment.tool));
+            ToolMotion { V_NE_N, ..at_rest(X_NE) }
+        });
+        let (rate, way, acceleration) = to_rest((t - fade) / fade);
+        let (V, way) = (drift.V_NE_N, way * fade);
+        let turn = Quat::exp(V.angular * way).to_matrix();
+        ToolMotion {
+            X_NE: Pose::new(turn * drift.X_NE.rotation, drift.X_NE.translation + V.linear * way),
+            V_NE_N: V * rate,
+            Vdot_NE_N: V * (acceleration / fade),
         }
     }
 

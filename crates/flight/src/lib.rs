@@ -11,6 +11,7 @@ mod attitude_control;
 mod attitude_estimator;
 mod base_answer;
 mod base_control;
+mod carried_rates;
 mod checked_period;
 mod computed_torque;
 mod computer;

@@ -3,9 +3,9 @@
 use crate::door::{Axes, Grip};
 use crate::steering::ToolTask;
 use crate::trajectory::{
-    BadNumbers, JointMove, MotionLimits, Profile, ProfileShape, Quintic, StraightLine,
+    BadNumbers, JointMove, MotionLimits, Profile, ProfileShape, Quintic, StraightLine, ToolWay,
 };
-use wrasse_spatial::{Pose, Quat, Scalar, Vec3};
+use wrasse_spatial::{Pose, Scalar, Vec3};
 
 /// Most phases of one mission.
 pub const PHASES: usize = 32;
@@ -45,8 +45,13 @@ pub enum Phase<T, const J: usize> {
         /// For how long (s).
         duration: T,
     },
-    /// The grip is told something; takes one control period.
-    Grip(Grip),
+    /// The grip takes or lets go of something at the end of one control period.
+    Grip {
+        /// What it is told.
+        told: Grip,
+        /// What stays meanwhile.
+        keep: Held,
+    },
 }
 
 /// What a hold keeps.
@@ -63,7 +68,8 @@ pub enum Held {
 /// Where a tool should go.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Target<T> {
-    /// From where it is: displacement (m) and rotation vector (rad), in the phase's axes.
+    /// From where it is: displacement (m) and rotation vector (rad, of any number of turns), in the
+    /// phase's axes.
     By {
         /// Displacement (m).
         displacement: Vec3<T>,
@@ -123,27 +129,32 @@ pub(crate) enum Path<T, const J: usize> {
 }
 
 impl<T: Scalar> Target<T> {
-    /// The pose to reach from `X`, both in the phase's axes.
-    pub(crate) fn from(&self, X: &Pose<T>) -> Pose<T> {
-        match self {
-            Self::To(pose) => *pose,
+    /// The way from `X`, both in the phase's axes.
+    pub(crate) fn way_from(&self, X: &Pose<T>) -> ToolWay<T> {
+        match *self {
+            Self::To(pose) => ToolWay::between(X, &pose),
             Self::By { displacement, turn } => {
-                Pose::new(Quat::exp(*turn).to_matrix() * X.rotation, X.translation + *displacement)
+                ToolWay { displacement_N: displacement, turn_N: turn }
             }
         }
     }
 }
 
 impl<T: Scalar> Timing<T> {
-    /// The line from one pose to another.
-    pub(crate) fn line(&self, from: Pose<T>, to: Pose<T>) -> Result<StraightLine<T>, BadNumbers> {
+    /// The line from a pose to a target.
+    pub(crate) fn line(
+        &self,
+        from: Pose<T>,
+        target: &Target<T>,
+    ) -> Result<StraightLine<T>, BadNumbers> {
+        let way = target.way_from(&from);
         match self {
             Self::Duration(duration) => {
                 let profile = Profile::Quintic(Quintic::new(T::one(), *duration)?);
-                StraightLine::new(from, to, profile)
+                StraightLine::along(from, &way, profile)
             }
             Self::Limits { shape, linear, angular } => {
-                StraightLine::within(from, to, *shape, linear, angular)
+                StraightLine::along_within(from, &way, *shape, linear, angular)
             }
         }
     }

@@ -80,6 +80,11 @@ impl<T: Scalar, const J: usize> Sequence<T, J> {
         (self.current, self.elapsed, self.length) = (Some(next), 0, u32::MAX);
         self.at(next)
     }
+    /// The current phase once more, from its start.
+    pub(crate) fn again(&mut self) -> Option<Phase<T, J>> {
+        (self.elapsed, self.length) = (0, u32::MAX);
+        self.at(self.number())
+    }
     /// Say how long the phase that just began lasts (s), in periods of `period` (s).
     pub(crate) fn lasts(&mut self, duration: T, period: T) -> Result<(), NoWay<T>> {
         let count = (duration / period).to_f64() - 1e-9;

@@ -54,7 +54,7 @@ fn a_control_period_allocates_nothing() {
             aside(Axes::Inertial, 0.2),
             Phase::Hold { what: Held::Tool, duration: 0.1 },
             to_tool_pose(X),
-            Phase::Grip(Grip::Grasp(0)),
+            Phase::Grip { told: Grip::Grasp(0), keep: Held::Joints },
             Phase::Hold { what: Held::Nothing, duration: 0.1 },
             Phase::Hold { what: Held::Joints, duration: 0.1 },
         ];

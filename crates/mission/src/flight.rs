@@ -5,13 +5,14 @@ use crate::dead_band::DeadBand;
 use crate::limits_passed::Passed;
 use crate::mission::{Case, PayloadStart};
 use crate::outcome::{End, Event, EventKind};
+use crate::overlap::Overlap;
 use crate::plan::cannot_begin;
 use crate::read_base::Turning;
 use crate::saturations::{EquipmentLimits, describe};
 use crate::sensing::{Refusals, Sensing};
 use wrasse_flight::{Command, FlightComputer};
 use wrasse_hardware::{GYROS, SetPoint, SetPointMotion, THRUSTERS, WHEELS};
-use wrasse_spatial::{Pose, Quat, Vec3};
+use wrasse_spatial::{Quat, Vec3};
 use wrasse_vehicle::{JOINTS, VehicleRobot};
 use wrasse_world::{Drive, Saturation, Stepper, World};
 
@@ -51,17 +52,19 @@ pub(crate) struct Flight<'a> {
     pub(crate) floating: Vec<Option<usize>>,
     /// Payloads in the grips, in the world's order.
     pub(crate) holding: Vec<usize>,
-    /// Where each of them sits in its grip.
-    pub(crate) X_FT: Vec<Pose<f64>>,
     /// The vehicle that the computer believes in, with nothing in its grips and tank, where its masses
     /// are otherwise in truth.
     pub(crate) believed_alone: Option<VehicleRobot>,
     /// What limits cut in this period.
     pub(crate) cut: Vec<Saturation>,
     pub(crate) set_points: [SetPoint<f64>; JOINTS],
+    /// The phase that the last period belonged to.
+    phase: Option<usize>,
     /// What was already said of the current phase.
     pub(crate) said: Vec<Saturation>,
     pub(crate) said_passed: Vec<Passed>,
+    /// Tool and loads that were found inside the bus.
+    pub(crate) overlaps: Vec<Overlap>,
     pub(crate) events: Vec<Event>,
 }
 
@@ -100,13 +103,14 @@ impl<'a> Flight<'a> {
             unloads: false,
             estimate_error: f64::NAN,
             floating,
-            X_FT: vec![Pose::identity(); holding.len()],
             holding,
             believed_alone,
             cut: Vec::with_capacity(LIMITS),
             set_points: core::array::from_fn(start),
+            phase: None,
             said: vec![],
             said_passed: vec![],
+            overlaps: vec![],
             events: vec![],
         };
         if case.believed.is_some() {
@@ -120,7 +124,7 @@ impl<'a> Flight<'a> {
         self.events.push(Event { time_s: self.world.time(), kind, text });
     }
 
-    pub(crate) fn enter(&mut self, phase: usize) {
+    fn enter(&mut self, phase: usize) {
         self.said.clear();
         self.said_passed.clear();
         if let Some(phase) = self.case.phases.get(phase) {
@@ -129,7 +133,7 @@ impl<'a> Flight<'a> {
     }
 
     /// What the flight computer says to what the sensors say.
-    pub(crate) fn command(&mut self) -> Result<Command<f64, JOINTS>, End> {
+    fn command(&mut self) -> Result<Command<f64, JOINTS>, End> {
         let sensed = self.sensing.read(self.case, &self.world);
         let quat_NB = self.world.system().quat_NB;
         let time = self.world.time();
@@ -140,17 +144,28 @@ impl<'a> Flight<'a> {
                 end => end,
             }
         })?;
+        if let Some(what) = not_finite(self.case, &command) {
+            let reason = format!("the flight computer asks for what is not finite: {what}");
+            return Err(End::Breakdown { time_s: time, reason });
+        }
         let estimate = self.computer.navigation().attitude_estimate();
         self.estimate_error =
             estimate.map_or(f64::NAN, |e| (e.quat_NB.conjugate() * quat_NB).log().norm());
         Ok(command)
     }
 
-    /// One control period of the world; why the flight ends, if it does.
-    pub(crate) fn period(&mut self, command: &Command<f64, JOINTS>) -> Option<End> {
-        if let Some(stop) = command.grip.and_then(|grip| self.grip(grip, command.phase)) {
-            return Some(stop);
+    /// The next control period: what fails, what the flight computer says to it, and the world's answer.
+    pub(crate) fn next_period(&mut self) -> Result<Command<f64, JOINTS>, End> {
+        self.break_what_breaks();
+        let command = self.command()?;
+        if self.phase.replace(command.phase) != Some(command.phase) {
+            self.enter(command.phase);
         }
+        self.period(&command).map_or(Ok(command), Err)
+    }
+
+    /// One control period of the world; why the flight ends, if it does.
+    fn period(&mut self, command: &Command<f64, JOINTS>) -> Option<End> {
         let period = self.case.period();
         let drives: [Drive; JOINTS] = core::array::from_fn(|j| {
             if self.case.torque[j] {
@@ -234,4 +249,31 @@ impl<'a> Flight<'a> {
             }
         }
     }
+}
+
+/// What of a command is not finite, if anything: no actuator can be told it.
+fn not_finite(case: &Case, command: &Command<f64, JOINTS>) -> Option<String> {
+    let is_bad = |x: &f64| !x.is_finite();
+    for j in case.vehicle.robot.joints() {
+        let SetPoint { position, rate, acceleration } = command.set_points[j];
+        let name = case.joint_name(j);
+        if is_bad(&command.effort[j]) {
+            return Some(format!("the effort of joint {name}"));
+        }
+        if [position, rate, acceleration].iter().any(is_bad) {
+            return Some(format!("the set-point of joint {name}"));
+        }
+    }
+    let (told, wanted) = (&command.actuators, &command.steering.wanted);
+    [
+        ("the torque on the base", &command.attitude_torque_B.to_array()[..]),
+        ("the torque of the steering", &wanted.torque.to_array()),
+        ("the force of the steering", &wanted.force.to_array()),
+        ("the torque of a wheel", &told.wheel_torque),
+        ("the rate of a gimbal", &told.gimbal_rate),
+        ("the time that a thruster is open", &told.thruster_on),
+    ]
+    .into_iter()
+    .find(|(_, numbers)| numbers.iter().any(is_bad))
+    .map(|(what, _)| what.to_owned())
 }

@@ -5,6 +5,7 @@ use crate::flight::Flight;
 use crate::mission::Case;
 use crate::observe::{Needs, Observation, Track, Truth, observe};
 use crate::outcome::{DemandSample, End, Event, Snapshot, Telemetry};
+use crate::overlap::Overlap;
 use crate::picture::snapshot;
 use crate::plan::Plan;
 use crate::quantity::Watch;
@@ -18,6 +19,7 @@ pub(crate) struct Flown {
     pub(crate) watch: Watch,
     pub(crate) ledger: wrasse_world::Ledger,
     pub(crate) events: Vec<Event>,
+    pub(crate) overlaps: Vec<Overlap>,
     pub(crate) telemetry: Telemetry,
     pub(crate) snapshots: Vec<Snapshot>,
     pub(crate) demand: Vec<DemandSample>,
@@ -36,39 +38,31 @@ pub(crate) fn fly(
     let mut watch = Watch::new(case.quantities.clone(), case.phases.len());
     let mut ledger = flight.world.open_ledger();
     let (mut recorder, mut track) = (Recorder::default(), Track::default());
-    let (mut snapshots, mut last, mut phase) = (vec![], None, usize::MAX);
+    let (mut snapshots, mut last) = (vec![], None);
     let every = case.periods_per_sample();
     let mut end = End::Completed;
     let mut demand = vec![];
     let tool = flight.world.pose(flight.computer.tool()).translation;
     snapshots.push(snapshot(case, &flight.world, &flight.payload_poses(), [tool; 2]));
     for period in 0..plan.periods {
-        flight.break_what_breaks();
-        let command = match flight.command() {
+        let command = match flight.next_period() {
             Ok(command) => command,
             Err(stop) => {
                 end = stop;
                 break;
             }
         };
-        if command.phase != phase {
-            phase = command.phase;
-            flight.enter(phase);
-        }
-        if let Some(stop) = flight.period(&command) {
-            end = stop;
-            break;
-        }
-        track.follow(&command, &flight.computer);
+        track.follow(&command, &flight.computer, &flight.world.system().quat_NB);
         flight.world.update_ledger(&mut ledger);
         let error = flight.estimate_error;
         let truth = Truth::of(&flight.world, Needs::ALL);
         let jacobian = || flight.computer.task_jacobian();
         let seen = observe(case, &truth, &command, &track, error, Needs::ALL, &jacobian);
+        flight.look_for_overlap(&seen, period == 0);
         flight.tell_limits(&seen);
         flight.tell_missing(&command);
         demand.push(DemandSample::of(flight.world.time(), &command, &seen));
-        watch.add(phase, &seen.values);
+        watch.add(command.phase, &seen.values);
         let done = period + 1;
         if done % every == 0 || done == plan.periods {
             recorder.sample(flight.world.time(), case, &seen, &ledger);
@@ -79,6 +73,11 @@ pub(crate) fn fly(
             snapshots.push(snapshot(case, &flight.world, &flight.payload_poses(), tips));
         }
         last = Some(seen);
+        if let Some(stop) = flight.grip(&command) {
+            end = stop;
+            break;
+        }
+        flight.world.update_ledger(&mut ledger);
         progress(done as f64 / plan.periods as f64);
     }
     flight.sum_up();
@@ -87,6 +86,7 @@ pub(crate) fn fly(
         watch,
         ledger,
         events: flight.events,
+        overlaps: flight.overlaps,
         telemetry: recorder.finish(),
         snapshots,
         demand,

@@ -3,9 +3,10 @@
 use crate::flight::Flight;
 use crate::outcome::{End, EventKind};
 use wrasse_dynamics::{BodyId, Frame, Payload, kinematics};
-use wrasse_flight::Grip;
+use wrasse_flight::{Command, Grip};
 use wrasse_spatial::{Pose, Sym3};
-use wrasse_vehicle::VehicleRobot;
+use wrasse_vehicle::{JOINTS, VehicleRobot};
+use wrasse_world::{GraspRefused, GripOffset};
 
 impl Flight<'_> {
     /// The vehicle with what it holds and its propellant, as the flight computer believes it to be: the
@@ -23,9 +24,9 @@ impl Flight<'_> {
             }
             None => alone,
         };
-        let held = self.holding.iter().zip(self.world.held()).zip(&self.X_FT);
-        held.fold(fed, |robot, ((&i, (frame, _)), X_FT)| {
-            robot.with_payload(frame, &self.case.believed_matter(i).seen_from(X_FT))
+        let held = self.holding.iter().zip(self.world.held());
+        held.fold(fed, |robot, (&i, (frame, _))| {
+            robot.with_payload(frame, &self.case.believed_matter(i))
         })
     }
 
@@ -47,10 +48,12 @@ impl Flight<'_> {
         held.chain(floating).collect()
     }
 
-    /// Grasp or release; why the flight ends, if it is refused.
-    pub(crate) fn grip(&mut self, grip: Grip, phase: usize) -> Option<End> {
-        let done = match grip {
-            Grip::Grasp(i) => self.grasp(i, self.case.phases[phase].grasp_bounds),
+    /// At the end of a control period: what the command told the grip; why the flight ends, if it is
+    /// refused. The period before is flown with what was in the grip, by a law that knows it.
+    pub(crate) fn grip(&mut self, command: &Command<f64, JOINTS>) -> Option<End> {
+        let phase = self.case.phases.get(command.phase)?;
+        let done = match command.grip? {
+            Grip::Grasp(i) => self.grasp(i, phase.grasp_bounds?),
             Grip::Release(i) => self.release(i),
         };
         match done {
@@ -61,34 +64,34 @@ impl Flight<'_> {
                 None
             }
             Err(reason) => {
-                let phase = self.case.phases[phase].name.clone();
-                Some(End::Stopped { phase, time_s: self.world.time(), reason })
+                let (phase, time_s) = (phase.name.clone(), self.world.time());
+                Some(End::Stopped { phase, time_s, reason })
             }
         }
     }
 
-    fn grasp(&mut self, i: usize, (angular, linear): (f64, f64)) -> Result<String, String> {
+    fn grasp(&mut self, i: usize, most: GripOffset) -> Result<String, String> {
         let name = &self.case.payloads[i].name;
         let Some(number) = self.floating[i] else {
             return Err(format!("{name} does not float: it is held already"));
         };
         let tool = *self.computer.tool();
-        let refused = |r: wrasse_world::GraspRefused| {
-            format!(
-                "grasp of {name} refused: relative speed {:.4} m/s (at most {linear} m/s), relative \
-                 turning speed {:.4} deg/s (at most {:.4} deg/s)",
-                r.linear_speed,
-                r.angular_speed.to_degrees(),
-                angular.to_degrees()
-            )
-        };
-        let X_FT = self.world.pose(&tool).inverse() * self.world.free_bodies()[number].pose();
-        let change = self.world.grasp(&tool, number, angular, linear).map_err(refused)?;
-        self.X_FT.push(X_FT);
+        let found = self.world.grip_offset(&tool, number);
+        let change = self
+            .world
+            .grasp(&tool, number, &most)
+            .map_err(|GraspRefused(found)| refusal(name, &found, &most))?;
         self.floating[i] = None;
         self.floating.iter_mut().flatten().filter(|n| **n > number).for_each(|n| *n -= 1);
         self.holding.push(i);
-        Ok(format!("grasped {name}: energy changes by {change:.3e} J"))
+        Ok(format!(
+            "grasped {name}: its grip {:.2} mm and {:.3} deg from the tool (at most {} mm and {} deg); \
+             energy changes by {change:.3e} J",
+            found.distance * 1e3,
+            found.angle.to_degrees(),
+            short(most.distance * 1e3),
+            short(most.angle.to_degrees())
+        ))
     }
 
     fn release(&mut self, i: usize) -> Result<String, String> {
@@ -97,8 +100,32 @@ impl Flight<'_> {
             return Err(format!("{name} cannot be released: nobody holds it"));
         };
         self.holding.remove(number);
-        self.X_FT.remove(number);
         self.floating[i] = Some(self.world.release(number));
         Ok(format!("released {name}"))
     }
+}
+
+/// Why a grasp is refused, with the numbers against their bounds.
+pub(crate) fn refusal(payload: &str, found: &GripOffset, most: &GripOffset) -> String {
+    let each = [
+        ("distance of grip and tool", found.distance * 1e3, most.distance * 1e3, "mm"),
+        ("angle", found.angle.to_degrees(), most.angle.to_degrees(), "deg"),
+        ("relative speed", found.linear_speed, most.linear_speed, "m/s"),
+        (
+            "relative turning speed",
+            found.angular_speed.to_degrees(),
+            most.angular_speed.to_degrees(),
+            "deg/s",
+        ),
+    ];
+    let parts = each.map(|(what, found, most, unit)| {
+        let beyond = if found <= most { "" } else { ", beyond it" };
+        format!("{what} {found:.4} {unit} (at most {} {unit}{beyond})", short(most))
+    });
+    format!("grasp of {payload} refused: {}", parts.join(", "))
+}
+
+/// A bound as its file has it: without the round-off of its unit.
+fn short(x: f64) -> f64 {
+    (x * 1e9).round() / 1e9
 }

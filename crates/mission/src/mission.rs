@@ -16,7 +16,7 @@ use wrasse_flight::{Phase, Setup};
 use wrasse_hardware::{AttitudeActuator, Sensors};
 use wrasse_spatial::{Pose, SpatialVelocity};
 use wrasse_vehicle::{Equipment, JOINTS, Vehicle, VehicleRobot};
-use wrasse_world::{BaseAttitude, Failure, FreeBody, Stepper};
+use wrasse_world::{BaseAttitude, Failure, FreeBody, GripOffset, Stepper};
 
 /// A mission file, checked.
 #[derive(Debug, Clone)]
@@ -204,8 +204,8 @@ pub(crate) enum PayloadStart {
 pub(crate) struct PhaseCase {
     pub(crate) name: String,
     pub(crate) phase: Phase<f64, JOINTS>,
-    /// Largest relative turning speed (rad/s) and speed (m/s) of a grasp.
-    pub(crate) grasp_bounds: (f64, f64),
+    /// What a grasp allows between tool and grip; nothing where the phase is none.
+    pub(crate) grasp_bounds: Option<GripOffset>,
 }
 
 impl Case {

@@ -11,7 +11,7 @@ use wrasse_dynamics::{
 };
 use wrasse_flight::{Axes, Command, FlightComputer};
 use wrasse_hardware::ActuatorReadings;
-use wrasse_spatial::{Pose, Quat, SpatialForce, SpatialVelocity, Vec3};
+use wrasse_spatial::{Mat3, Pose, Quat, SpatialForce, SpatialVelocity, Vec3};
 use wrasse_vehicle::JOINTS;
 use wrasse_world::{BaseAttitude, World};
 
@@ -31,7 +31,7 @@ pub(crate) struct Observation {
     /// Tool in inertial axes.
     pub(crate) X_NE: Pose<f64>,
     pub(crate) V_NE: SpatialVelocity<f64>,
-    /// Rotation vector of the base since the start (rad) and its translation (m).
+    /// Rotation vector of the base since the start, with its whole turns (rad), and its translation (m).
     pub(crate) base_turn: Vec3<f64>,
     pub(crate) base_shift: Vec3<f64>,
     /// What wheels, gyros and thrusters say.
@@ -94,17 +94,24 @@ pub(crate) struct Track {
     direction: Option<Vec3<f64>>,
     /// Nothing is driven: there is nowhere that the tool should be, and nothing is steered.
     coasting: bool,
+    /// Attitude of the base, and the sum of its small turns, inertial axes (rad).
+    attitude: Option<Quat<f64>>,
+    turns_N: Vec3<f64>,
 }
 
 impl Track {
-    /// Follow the reference of a command that this computer gave.
+    /// Follow the reference of a command that this computer gave, and the base with its attitude
+    /// `quat_NB`.
     pub(crate) fn follow(
         &mut self,
         command: &Command<f64, JOINTS>,
         computer: &FlightComputer<f64, JOINTS>,
+        quat_NB: &Quat<f64>,
     ) {
         let moves_tool = computer.follows_tool();
         self.coasting = computer.coasts();
+        let before = self.attitude.replace(*quat_NB).unwrap_or(*quat_NB);
+        self.turns_N += (*quat_NB * before.conjugate()).log();
         let at = command.reference.X_NE.translation;
         if self.phase != Some(command.phase) {
             if moves_tool || self.phase.is_none() {
@@ -118,6 +125,19 @@ impl Track {
             self.direction = Some(way * (1.0 / way.norm()));
         }
         self.last = at;
+    }
+    /// The rotation vector of a rotation `R_S` from the start's axes (inertial axes by `R_NS`), whose
+    /// angle counts whole turns: of all that are the same rotation, the one that the small turns
+    /// summed up to.
+    fn counted_turn(&self, R_S: &Mat3<f64>, R_NS: &Mat3<f64>) -> Vec3<f64> {
+        let shortest = Quat::from_matrix(R_S).log();
+        let (angle, summed) = (shortest.norm(), R_NS.transpose_mul(self.turns_N));
+        if angle < 1e-9 {
+            return shortest;
+        }
+        let axis = shortest * (1.0 / angle);
+        let turns = ((summed.dot(axis) - angle) / std::f64::consts::TAU).round();
+        if turns == 0.0 { shortest } else { axis * (angle + turns * std::f64::consts::TAU) }
     }
     /// Signed error along the line and error across it (m); NaN where there is no line.
     fn split(&self, error: Vec3<f64>) -> (f64, f64) {
@@ -199,7 +219,7 @@ pub(crate) fn observe(
         tool_error: (seen.translation - wanted.translation, rotation),
         X_NE,
         V_NE: k.velocity(&tool),
-        base_turn: Quat::from_matrix(&turned).log(),
+        base_turn: track.counted_turn(&turned, &start.rotation),
         base_shift: state.X_NB.translation - start.translation,
         values: [nan; VALUES],
         state,

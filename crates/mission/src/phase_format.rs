@@ -2,7 +2,7 @@
 
 use crate::format::AttitudeFile;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// One phase: a name and exactly one thing to do.
@@ -42,7 +42,7 @@ pub(crate) enum AxesFile {
 pub(crate) struct MoveToolFile {
     /// Displacement from where the tool is.
     pub(crate) by_m: Option<[f64; 3]>,
-    /// Turn from how the tool is: rotation vector.
+    /// Turn from how the tool is: rotation vector, of up to ten turns (3600 deg).
     pub(crate) turn_by_deg: Option<[f64; 3]>,
     /// Position to reach.
     pub(crate) to_position_m: Option<[f64; 3]>,
@@ -148,11 +148,12 @@ fn one() -> f64 {
     1.0
 }
 
-/// What a hold keeps.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+/// What a hold or a grip keeps.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum KeepFile {
-    /// The joints stand still.
+    /// The joints stand still; joints that move come to rest within a second.
+    #[default]
     Joints,
     /// The tool stays on its reference.
     Tool,
@@ -167,12 +168,8 @@ pub(crate) struct HoldFile {
     /// For how long.
     pub(crate) duration_s: f64,
     /// What stays.
-    #[serde(default = "joints")]
+    #[serde(default)]
     pub(crate) keep: KeepFile,
-}
-
-fn joints() -> KeepFile {
-    KeepFile::Joints
 }
 
 /// What of the tool must stay while the posture relieves the base.
@@ -208,7 +205,8 @@ fn tenth() -> f64 {
     0.1
 }
 
-/// A grasp.
+/// A grasp: the tool takes the payload by its grip at the end of one control period, if distance and
+/// angle are within the `grasp_bounds` of the tool in the vehicle file.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct GraspFile {
@@ -218,12 +216,18 @@ pub(crate) struct GraspFile {
     pub(crate) largest_speed_m_s: f64,
     /// Largest relative turning speed.
     pub(crate) largest_turn_speed_deg_s: f64,
+    /// What stays meanwhile.
+    #[serde(default)]
+    pub(crate) keep: KeepFile,
 }
 
-/// A release.
+/// A release: the tool lets go at the end of one control period.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ReleaseFile {
     /// Name of the payload.
     pub(crate) payload: String,
+    /// What stays meanwhile.
+    #[serde(default)]
+    pub(crate) keep: KeepFile,
 }

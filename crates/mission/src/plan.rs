@@ -3,6 +3,7 @@
 
 use crate::arm_shape::{reach_margin, smallest_singular_value};
 use crate::case_world::fuelled;
+use crate::gripping::refusal;
 use crate::mission::{Case, PayloadStart};
 use crate::outcome::{End, PlanLine};
 use crate::sampled_loops::{SampledLoop, joint_gain, joint_loop, sampled_loops};
@@ -11,7 +12,7 @@ use wrasse_flight::{Actuation, BadPhase, FlightComputer, Grip, LONGEST, NoWay, S
 use wrasse_hardware::ActuatorReadings;
 use wrasse_spatial::{Pose, Quat, Vec3};
 use wrasse_vehicle::{JOINTS, VehicleRobot};
-use wrasse_world::FreeBody;
+use wrasse_world::{FreeBody, GripOffset};
 
 /// A tool that its own law believes this far from its reference has left the way (m, rad).
 const OFF_THE_WAY: (f64, f64) = (5e-5, 5e-5);
@@ -107,16 +108,14 @@ pub(crate) fn plan_through(case: &Case, last: usize) -> Plan {
             }
             plan.tool = belief.tool(&state);
         }
-        if let Some(grip) = command.grip {
-            belief.grip(grip);
-        }
         plan.periods += 1;
         belief.float_on();
         state = belief.computer.believed_state();
         notes.periods += 1;
         let at = command.reference.X_NE.translation;
         notes.way = (at - *notes.start.get_or_insert(at)).norm();
-        if let Some(reason) = belief.look(&mut notes) {
+        let gripped = |belief: &mut Belief<'_>| belief.grip(command.grip?, phase);
+        if let Some(reason) = belief.look(&mut notes).or_else(|| gripped(&mut belief)) {
             let time_s = time + case.period();
             plan.blocked =
                 Some(End::Infeasible { phase: case.phases[phase].name.clone(), time_s, reason });
@@ -181,21 +180,36 @@ impl<'a> Belief<'a> {
         let period = self.case.period();
         self.free.iter_mut().flatten().for_each(|body| body.step(period));
     }
-    fn grip(&mut self, grip: Grip) {
+    /// Grasp or release at the end of a period; why a grasp would be refused. Whether a payload is
+    /// there to be grasped or released at all, the flight says.
+    fn grip(&mut self, grip: Grip, phase: usize) -> Option<String> {
         let tool = *self.computer.tool();
         match grip {
             Grip::Grasp(i) => {
-                let Some(body) = self.free[i].take() else { return };
-                let state = self.computer.believed_state();
-                let robot = self.robot();
-                let X_NE = kinematics(&robot, &state).pose(&tool);
-                let X_ET = X_NE.inverse() * body.pose();
-                self.held.push((i, tool, body.matter.seen_from(&X_ET)));
+                let body = self.free[i].take()?;
+                let most = self.case.phases[phase].grasp_bounds?;
+                let (robot, state) = (self.robot(), self.computer.believed_state());
+                let k = kinematics(&robot, &state);
+                let found = GripOffset::of(&k, &tool, &body);
+                if !found.is_within(&most) {
+                    return Some(refusal(&self.case.payloads[i].name, &found, &most));
+                }
+                let X_FT = k.pose(&tool).inverse() * body.pose();
+                let at = Frame { body: tool.body, X_BF: tool.X_BF * X_FT };
+                self.held.push((i, at, body.matter));
             }
-            Grip::Release(i) => self.held.retain(|(held, ..)| *held != i),
+            Grip::Release(i) => {
+                let number = self.held.iter().position(|(held, ..)| *held == i)?;
+                let (robot, state) = (self.robot(), self.computer.believed_state());
+                let (_, frame, matter) = self.held.remove(number);
+                let k = kinematics(&robot, &state);
+                let V_NF_F = frame.X_BF.velocity_to_child(&k.V_NB_B(frame.body));
+                self.free[i] = Some(FreeBody::new(matter, &k.pose(&frame), &V_NF_F));
+            }
         }
         let robot = self.robot();
         self.computer.robot_changed(&robot);
+        None
     }
 
     /// Note how near the arm is to where it cannot go on; why, if it cannot.

@@ -338,7 +338,7 @@ pub(crate) fn failures(
                 .into();
         r.warning(at!["failure"], message, "set world.base_attitude to \"controlled\"");
     }
-    let mut all = vec![];
+    let mut all: Vec<FailureCase> = vec![];
     for (i, f) in file.failure.iter().enumerate() {
         let path = |key| [Step::Key("failure"), Step::Index(i), Step::Key(key)];
         let at = r.not_negative(&path("at_s"), f.at_s);
@@ -364,6 +364,13 @@ pub(crate) fn failures(
                 continue;
             }
         };
+        let same =
+            |other: &FailureCase| other.unit == unit && (other.breaks == breaks || other.at == at);
+        if all.iter().any(same) {
+            let message = format!("{} has already failed, in this way or at this time", f.unit);
+            r.error(&path("unit"), message, "a unit fails in one way once: leave this failure out");
+            continue;
+        }
         let how = format!("{:?}", f.kind).to_lowercase();
         all.push(FailureCase { name: f.unit.clone(), how, unit, breaks, at, told_at });
     }

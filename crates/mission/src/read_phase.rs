@@ -7,7 +7,7 @@ use crate::phase_format::{
     RelieveFile, ShapeFile, ToolLimitsFile, ToolPoseFile, ToolTaskFile,
 };
 use crate::read_setup::{
-    RATES, attitude, axes, by_joint, place_of_position, posture, radians, vector,
+    RATES, attitude, axes, by_joint, grasp_bounds, place_of_position, posture, radians, vector,
 };
 use crate::reading::Reading;
 use wrasse_document::{Step, at};
@@ -16,7 +16,8 @@ use wrasse_flight::steering::ToolTask;
 use wrasse_flight::trajectory::{MotionLimits, ProfileShape};
 use wrasse_flight::{Grip, Held, JointTarget, JointTiming, LONGEST, Phase, Target, Timing};
 use wrasse_spatial::{Pose, Vec3};
-use wrasse_vehicle::JOINTS;
+use wrasse_vehicle::{GraspBounds, JOINTS};
+use wrasse_world::GripOffset;
 
 /// The phase of this number; errors if it does not say exactly one thing.
 pub(crate) fn phase(
@@ -26,7 +27,7 @@ pub(crate) fn phase(
     payloads: &[String],
     mission: &MissionFile,
 ) -> Option<PhaseCase> {
-    let mut grasp_bounds = (0.0, 0.0);
+    let mut grasp_bounds = None;
     let things = [
         (file.move_tool.is_some(), "move_tool"),
         (file.move_joints.is_some(), "move_joints"),
@@ -52,22 +53,19 @@ pub(crate) fn phase(
     } else if let Some(hold) = &file.hold {
         let path = at!["phase", i, "hold", "duration_s"];
         let duration = duration(r, path, hold.duration_s, mission);
-        let what = match hold.keep {
-            KeepFile::Joints => Held::Joints,
-            KeepFile::Tool => Held::Tool,
-            KeepFile::Nothing => Held::Nothing,
-        };
-        Phase::Hold { what, duration }
+        Phase::Hold { what: held(hold.keep), duration }
     } else if let Some(given) = &file.relieve {
         relieve(r, i, given, mission)
     } else if let Some(grasp) = &file.grasp {
-        grasp_bounds = bounds(r, i, grasp);
+        grasp_bounds = Some(bounds(r, i, grasp, mission));
         let path = at!["phase", i, "grasp", "payload"];
-        Phase::Grip(Grip::Grasp(r.find(path, "payload", &grasp.payload, payloads)?))
+        let told = Grip::Grasp(r.find(path, "payload", &grasp.payload, payloads)?);
+        Phase::Grip { told, keep: held(grasp.keep) }
     } else {
-        let name = &file.release.as_ref()?.payload;
+        let release = file.release.as_ref()?;
         let path = at!["phase", i, "release", "payload"];
-        Phase::Grip(Grip::Release(r.find(path, "payload", name, payloads)?))
+        let told = Grip::Release(r.find(path, "payload", &release.payload, payloads)?);
+        Phase::Grip { told, keep: held(release.keep) }
     };
     Some(PhaseCase { name: file.name.clone(), phase, grasp_bounds })
 }
@@ -96,10 +94,21 @@ fn relieve(
     }
 }
 
-fn bounds(r: &mut Reading<'_>, i: usize, grasp: &GraspFile) -> (f64, f64) {
+fn held(file: KeepFile) -> Held {
+    match file {
+        KeepFile::Joints => Held::Joints,
+        KeepFile::Tool => Held::Tool,
+        KeepFile::Nothing => Held::Nothing,
+    }
+}
+
+/// What a grasp allows: places by the tool that is guided, speeds by the phase.
+fn bounds(r: &mut Reading<'_>, i: usize, grasp: &GraspFile, mission: &MissionFile) -> GripOffset {
     let path = |key| [Step::Key("phase"), Step::Index(i), Step::Key("grasp"), Step::Key(key)];
     let turn = r.not_negative(&path("largest_turn_speed_deg_s"), grasp.largest_turn_speed_deg_s);
-    (turn.to_radians(), r.not_negative(&path("largest_speed_m_s"), grasp.largest_speed_m_s))
+    let linear_speed = r.not_negative(&path("largest_speed_m_s"), grasp.largest_speed_m_s);
+    let GraspBounds { distance, angle } = grasp_bounds(r.vehicle, mission.control.tool.as_deref());
+    GripOffset { distance, angle, angular_speed: turn.to_radians(), linear_speed }
 }
 
 fn move_tool(
@@ -114,7 +123,9 @@ fn move_tool(
     let target = match (by, to) {
         (true, None) if m.to_position_m.is_none() && m.to_attitude.is_none() => Target::By {
             displacement: m.by_m.map_or(Vec3::zero(), vector),
-            turn: m.turn_by_deg.map_or(Vec3::zero(), radians),
+            turn: m
+                .turn_by_deg
+                .map_or(Vec3::zero(), |turn| radians(few_turns(r, &path("turn_by_deg"), turn))),
         },
         (false, Some((position, quat))) => Target::To(Pose::from_quat(
             attitude(r, &path("to_attitude"), Some(quat)),
@@ -134,6 +145,20 @@ fn move_tool(
         (given, _) => return no_timing(r, at!["phase", i, "move_tool"], given),
     };
     Some(Phase::MoveTool { target, axes: axes(m.axes), timing })
+}
+
+/// Most turns that a tool is turned by in one move (deg): ten.
+const MOST_TURN: f64 = 3600.0;
+
+/// A rotation vector (deg) of at most ten turns.
+fn few_turns(r: &mut Reading<'_>, path: &[Step<'_>], turn: [f64; 3]) -> [f64; 3] {
+    let angle = vector(turn).norm();
+    if angle <= MOST_TURN {
+        return turn;
+    }
+    let message = format!("a turn of {angle} deg: one move turns a tool ten times at most");
+    r.error(path, message, &format!("at most {MOST_TURN} deg; write a phase for each part"));
+    [0.0; 3]
 }
 
 /// A duration (s) that can be planned.

@@ -15,7 +15,7 @@ use wrasse_flight::{
 };
 use wrasse_hardware::JointLimits;
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Vec3};
-use wrasse_vehicle::{JOINTS, from_rpy_deg};
+use wrasse_vehicle::{GraspBounds, JOINTS, Vehicle, from_rpy_deg};
 use wrasse_world::{BaseAttitude, Stepper};
 
 /// A unit quaternion; an error if it is not one.
@@ -307,4 +307,12 @@ pub(crate) fn tool(r: &mut Reading<'_>, path: &[Step<'_>], name: Option<&str>) -
         }
         None => r.vehicle.frames.last().map_or(base, |f| f.frame),
     }
+}
+
+/// How far a grip may be from the tool of this name, or the one that is guided without a name.
+pub(crate) fn grasp_bounds(vehicle: &Vehicle, name: Option<&str>) -> GraspBounds {
+    let first = vehicle.tools.first().map(String::as_str);
+    let last = vehicle.frames.last().map(|frame| frame.name.as_str());
+    let named = vehicle.frames.iter().find(|f| Some(f.name.as_str()) == name.or(first).or(last));
+    named.map_or(GraspBounds::default(), |frame| frame.grasp_bounds)
 }

@@ -7,6 +7,7 @@ use crate::mission::{Case, Mission};
 use crate::outcome::{
     CaseOutcome, End, Ledger, Metric, Outcome, ProvenanceRow, Telemetry, VehicleCard,
 };
+use crate::overlap::looked_at;
 use crate::plan::{Plan, plan};
 use crate::requirement::Requirement;
 use wrasse_vehicle::Grade;
@@ -54,7 +55,7 @@ pub fn run(
         version: env!("CARGO_PKG_VERSION").into(),
         seed: mission.seed,
         vehicle: vehicle_card(mission),
-        environment: environment(mission).into(),
+        environment: format!("{} {}", environment(mission), looked_at(&mission.cases[0])),
         cases: outcomes,
     }
 }
@@ -122,8 +123,11 @@ pub fn run_case(
         let again = fly(case, &plan, finer, &mut |share| tell("flying at half the step", share));
         error_estimate = difference(case, &flown, &again);
     }
-    let verdicts: Vec<_> = case.requirements.iter().map(|r| r.verdict(&flown.watch)).collect();
-    let ledger = ledger(&flown.ledger, case.base);
+    let required = case.requirements.iter().map(|r| r.verdict(&flown.watch));
+    let verdicts: Vec<_> = required.chain(case.overlap_verdicts(&flown.overlaps)).collect();
+    let mut ledger = ledger(&flown.ledger, case.base);
+    // Of what is not finite there are no books.
+    ledger.closes &= !matches!(flown.end, End::Breakdown { .. });
     let completed = matches!(flown.end, End::Completed);
     CaseOutcome {
         labels: case.labels.clone(),

@@ -27,7 +27,8 @@ pub struct SampleOutcome {
     pub end: End,
     /// Whether its books of momentum and energy close.
     pub closes: bool,
-    /// It came to its end, its books close, and all requirements hold.
+    /// It came to its end, its books close, tool and loads stayed outside the bus, and all requirements
+    /// hold.
     pub passed: bool,
     /// Requirements and their verdicts, in the order of the file.
     pub verdicts: Vec<Verdict>,
@@ -147,8 +148,15 @@ pub fn plan_samples(mission: &Mission, case: usize) -> SamplePlan<'_> {
     SamplePlan { case, plan: (!is_seen).then(|| plan(case)), needs: Needs::of(&names), watched }
 }
 
-/// How a flight ended, what was seen, and whether its books close.
-pub(crate) type Flown = (End, Watch, bool);
+/// What a flight for its verdicts comes to.
+struct Flown {
+    end: End,
+    watch: Watch,
+    /// Whether its books close.
+    closes: bool,
+    /// Whether tool and loads stayed outside the bus.
+    stays_outside: bool,
+}
 
 /// A sample that was drawn and planned.
 struct Prepared<'p> {
@@ -184,11 +192,12 @@ impl<'p> Prepared<'p> {
         let flown = fly_for_verdicts(&self.case, &self.plan, planned);
         self.judged(flown)
     }
-    fn judged(self, (end, watch, closes): Flown) -> SampleOutcome {
+    fn judged(self, flown: Flown) -> SampleOutcome {
+        let Flown { end, watch, closes, stays_outside } = flown;
         let Self { sample, deviations, case, .. } = self;
         let verdicts: Vec<_> = case.requirements.iter().map(|r| r.verdict(&watch)).collect();
         let completed = matches!(end, End::Completed);
-        let passed = completed && closes && verdicts.iter().all(|v| v.pass);
+        let passed = completed && closes && stays_outside && verdicts.iter().all(|v| v.pass);
         SampleOutcome { sample, deviations, end, closes, passed, verdicts }
     }
 }
@@ -206,26 +215,29 @@ fn fly_for_verdicts(case: &Case, plan: &Plan, planned: &SamplePlan<'_>) -> Flown
     let mut books = flight.world.open_ledger();
     let mut track = Track::default();
     let mut end = End::Completed;
-    for _ in 0..plan.periods {
-        flight.break_what_breaks();
-        let command = match flight.command() {
+    for period in 0..plan.periods {
+        let command = match flight.next_period() {
             Ok(command) => command,
             Err(stop) => {
                 end = stop;
                 break;
             }
         };
-        if let Some(stop) = flight.period(&command) {
-            end = stop;
-            break;
-        }
-        track.follow(&command, &flight.computer);
+        track.follow(&command, &flight.computer, &flight.world.system().quat_NB);
         flight.world.update_ledger(&mut books);
         let (error, needs) = (flight.estimate_error, planned.needs);
         let truth = Truth::of(&flight.world, needs);
         let jacobian = || flight.computer.task_jacobian();
         let seen = observe(case, &truth, &command, &track, error, needs, &jacobian);
         watch.add_only(&planned.watched, command.phase, &seen.values);
+        flight.look_for_overlap(&seen, period == 0);
+        if let Some(stop) = flight.grip(&command) {
+            end = stop;
+            break;
+        }
+        flight.world.update_ledger(&mut books);
     }
-    (end, watch, ledger(&books, case.base).closes)
+    let closes = ledger(&books, case.base).closes;
+    let stays_outside = case.overlap_verdicts(&flight.overlaps).is_empty();
+    Flown { end, watch, closes, stays_outside }
 }

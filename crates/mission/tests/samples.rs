@@ -261,7 +261,9 @@ fn a_free_payload_begins_where_the_sample_says() {
         "\n[[disperse]]\nquantity = \"payload.module.velocity_m_s.x\"\nbetween = [0.1, 0.2]\n";
     let mission = read(&format!("{}{more}", text("grasp-and-release.toml")));
     let outcome = sample(&mission, 0, 1, 0);
-    assert!(matches!(outcome.end, End::Stopped { .. }), "too fast to grasp: {:?}", outcome.end);
+    // The planning sees where it floats: it goes away from the tool.
+    let End::Infeasible { phase, .. } = &outcome.end else { panic!("{:?}", outcome.end) };
+    assert_eq!(phase, "grasp");
 }
 
 /// Each with what is said of it.

@@ -1,12 +1,13 @@
 //! The report's sections on one case: verdicts, motion, plots, plan, events, ledger, metrics.
 
-use wrasse_mission::{CaseOutcome, End, Ledger, Metric, Verdict};
+use wrasse_mission::{CaseOutcome, Ledger, Metric, Verdict};
 
 use crate::comparison::{judged, reason};
 use crate::drawing::drawing;
 use crate::ledger_rests::ledger_rests;
 use crate::markup::{dotted, escaped, figure, table, verdict_mark, words};
 use crate::numbers::{beside_limit, power, significant};
+use crate::tables::no_ledger;
 
 /// Most events in the page, in the table and in the plots.
 pub(crate) const EVENTS: usize = 400;
@@ -149,8 +150,9 @@ fn events(case: &CaseOutcome) -> String {
 }
 
 fn ledger(case: &CaseOutcome) -> String {
-    if matches!(case.end, End::Infeasible { .. }) {
-        return "<p>Nothing moved: there is no ledger.</p>\n".to_owned();
+    if let Some(why) = no_ledger(case) {
+        let (first, rest) = why.split_at(1);
+        return format!("<p>{}{rest}.</p>\n", first.to_uppercase());
     }
     let ledger = &case.ledger;
     let head = [

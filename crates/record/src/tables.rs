@@ -31,17 +31,20 @@ fn single(case: &CaseOutcome) -> String {
     }
     text += &limits_reached(case);
     text += "\n";
-    if was_flown(case) {
-        text += &ledger_lines(&case.ledger, "");
-    } else {
-        text += "nothing moved: there is no ledger\n";
-    }
+    text += &match no_ledger(case) {
+        None => ledger_lines(&case.ledger, ""),
+        Some(why) => format!("{why}\n"),
+    };
     text + &integration_error(case)
 }
 
-/// Whether anything moved: a way that the planning refuses leaves no ledger.
-fn was_flown(case: &CaseOutcome) -> bool {
-    !matches!(case.end, End::Infeasible { .. })
+/// Why there is no ledger, where nothing moved or numbers were lost.
+pub(crate) fn no_ledger(case: &CaseOutcome) -> Option<&'static str> {
+    match case.end {
+        End::Infeasible { .. } => Some("nothing moved: there is no ledger"),
+        End::Breakdown { .. } => Some("numbers broke down: there is no ledger"),
+        End::Completed | End::Stopped { .. } => None,
+    }
 }
 
 /// Most limits, or cases, that are told one by one.
@@ -193,7 +196,8 @@ fn worst_ledger(cases: &[CaseOutcome]) -> Option<&CaseOutcome> {
         ledger_rests(ledger).iter().map(|rest| rest.relative / rest.bound).fold(open, f64::max)
     };
     // Not `max_by`, which returns the last of equals.
-    cases.iter().reduce(|worst, case| if share(case) > share(worst) { case } else { worst })
+    let flown = cases.iter().filter(|case| no_ledger(case).is_none());
+    flown.reduce(|worst, case| if share(case) > share(worst) { case } else { worst })
 }
 
 /// What to try when the ledger does not close.

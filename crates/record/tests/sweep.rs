@@ -162,7 +162,7 @@ fn tables_and_summary_say_how_many_pass_and_how_sure_that_is() {
     let still = &outcome.cases[0];
     assert!(table.contains(&format!("{} of 12 (", still.passed.passed)), "{table}");
     assert!(table.contains("with 95 % confidence") && table.contains("seed 5"), "{table}");
-    assert!(table.contains("(stopped); the first, sample"), "{table}");
+    assert!(table.contains("(infeasible); the first, sample"), "{table}");
     assert!(table.contains("payload.module.mass_kg") && table.contains("flown from"), "{table}");
     let html = sweep_html(outcome);
     assert!(html.contains("Flown from") && html.contains("Flown with"));

@@ -53,7 +53,7 @@ fn of_case(asked: &Sweep<'_>, case: usize, rows: Vec<Row>) -> CaseSweep {
         labels: mission.case_labels(case).to_vec(),
         passed: rate(rows.iter().filter(|row| row.passed).count(), rows.len(), draws, varies),
         ends: ends(&rows),
-        open_books: rows.iter().filter(|row| !row.closes).count(),
+        open_books: rows.iter().filter(|row| has_open_books(row)).count(),
         requirements: each
             .map(|(i, v)| of_requirement(asked, &rows, i, v, &drawn, draws))
             .collect(),
@@ -75,6 +75,11 @@ fn rate(passed: usize, of: usize, draws: bool, varies: bool) -> PassRate {
 /// Whether several samples were flown, and this is the same in each of them.
 fn all_alike<'r, T: PartialEq>(rows: &'r [Row], of: impl Fn(&'r Row) -> T) -> bool {
     rows.len() > 1 && rows.windows(2).all(|pair| of(&pair[0]) == of(&pair[1]))
+}
+
+/// Whether its books stay open; where numbers broke down there are none.
+fn has_open_books(row: &Row) -> bool {
+    !row.closes && !matches!(row.end, End::Breakdown { .. })
 }
 
 /// How the flights ended, in the order in which the ways are first met.

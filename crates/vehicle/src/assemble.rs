@@ -6,7 +6,7 @@ use crate::findings::Findings;
 use crate::physical::{check_joint, check_matter};
 use crate::plausible::{doubt_joint, doubt_mass, doubt_matter};
 use crate::tree::{Edge, Tree, tree};
-use crate::vehicle::{JOINTS, NamedFrame, VehicleRobot};
+use crate::vehicle::{GraspBounds, JOINTS, NamedFrame, VehicleRobot};
 use std::sync::Arc;
 use wrasse_document::{Complaint, Source};
 use wrasse_dynamics::{BodyId, Frame, Joint, Payload};
@@ -163,6 +163,7 @@ impl Parts {
         let named = |(link, frame): (&Link, &Frame<f64>)| NamedFrame {
             name: link.name.clone(),
             frame: *frame,
+            grasp_bounds: GraspBounds::default(),
         };
         let of_moving = |(edge, ..): &(Edge, BodyId, Pose<f64>)| &joints[edge.joint];
         Ok(Assembled {

@@ -4,7 +4,7 @@
 use crate::equipment_format::EquipmentFile;
 use crate::sensor_format::SensorsFile;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// A vehicle: a free-flying base and what hangs on it.
@@ -71,7 +71,7 @@ pub(crate) struct BodyFile {
     /// Why mass properties that no rigid body can have are to be used all the same.
     #[schemars(length(min = 1))]
     pub(crate) accept_nonphysical: Option<String>,
-    /// What to draw. It has no effect on the motion.
+    /// What to draw. It has no effect on the motion; tool and loads must stay outside of the base's.
     #[serde(default)]
     pub(crate) shape: Vec<ShapeFile>,
     /// Where these numbers come from.
@@ -334,8 +334,27 @@ pub(crate) struct ToolFile {
     pub(crate) position_m: [f64; 3],
     /// How it is turned from the body's frame; not at all if not given.
     pub(crate) orientation: Option<OrientationFile>,
+    /// How far the grip of a payload may be from the tool when it grasps it.
+    #[serde(default)]
+    pub(crate) grasp_bounds: GraspBoundsFile,
     /// Where these numbers come from.
     pub(crate) source: Option<SourceFile>,
+}
+
+/// How far the grip of a payload may be from a tool that grasps it.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub(crate) struct GraspBoundsFile {
+    /// Largest distance between the origins of tool and grip (m).
+    pub(crate) distance_m: f64,
+    /// Largest angle between their axes (deg).
+    pub(crate) angle_deg: f64,
+}
+
+impl Default for GraspBoundsFile {
+    fn default() -> Self {
+        Self { distance_m: 0.005, angle_deg: 0.5 }
+    }
 }
 
 /// Named positions of the joints; a joint that is not named is at zero.

@@ -32,6 +32,7 @@ mod toml_gyro;
 mod toml_joint;
 mod toml_reading;
 mod toml_thruster;
+mod toml_tool;
 mod toml_wheel;
 mod torque_cone;
 mod tree;
@@ -54,5 +55,6 @@ pub use read_vehicle::read_vehicle;
 pub use rotation_in_degrees::from_rpy_deg;
 pub use sensor_format::SensorsFile;
 pub use vehicle::{
-    Grade, JOINTS, NamedFrame, Posture, Provenance, Shape, ShapeKind, Vehicle, VehicleRobot,
+    Grade, GraspBounds, JOINTS, NamedFrame, Posture, Provenance, Shape, ShapeKind, Vehicle,
+    VehicleRobot,
 };

@@ -5,20 +5,21 @@ use crate::assembly::{AssemblyJoint, Link};
 use crate::denavit_hartenberg::arm;
 use crate::equipment::Equipment;
 use crate::equipment_on_base::check_equipment;
-use crate::format::{ActuatorFile, PostureFile, ToolFile, VehicleFile};
+use crate::format::{ActuatorFile, PostureFile, VehicleFile};
 use crate::provenance::Sources;
 use crate::read_equipment::equipment;
 use crate::read_sensors::sensors;
 use crate::toml_body::{link, outline};
 use crate::toml_joint::joint;
 use crate::toml_reading::Reading;
+use crate::toml_tool::{grasp_bounds, tool};
 use crate::vehicle::{Posture, Shape, ShapeKind, Vehicle};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use wrasse_document::{Complaint, Document, Source, Step, UNKNOWN, at, closest};
 use wrasse_dynamics::{Frame, JointKind};
-use wrasse_hardware::{AttitudeActuator, JointLimits, Sensors};
-use wrasse_spatial::{Pose, vec3};
+use wrasse_hardware::{AttitudeActuator, Sensors};
+use wrasse_spatial::Pose;
 
 /// The vehicle of a TOML file.
 ///
@@ -48,6 +49,7 @@ fn vehicle_of(
     let attitude_actuator =
         file.attitude_actuator.as_ref().map(|given| actuator(&mut reading, given));
     check_postures(&mut reading, &file.posture, &joints);
+    let grasp_bounds = grasp_bounds(&mut reading, &file.tool);
     let mut sources = sources(&mut reading, &file);
     let equipment = equipment_of(&mut reading, &mut sources, &file);
     let sensors = sensors_of(&mut reading, &mut sources, &file);
@@ -70,13 +72,18 @@ fn vehicle_of(
     let postures = file.posture.iter().map(|p| posture(p, &assembled)).collect();
     let shapes = shapes(outlines, &assembled);
     found.take(assembled.warnings);
+    let mut frames = assembled.frames;
+    for (tool, bounds) in file.tool.iter().zip(grasp_bounds) {
+        let of_tool = frames.iter_mut().filter(|frame| frame.name == tool.name);
+        of_tool.for_each(|frame| frame.grasp_bounds = bounds);
+    }
     Ok(Vehicle {
         name: file.name,
         summary: file.summary,
         robot: assembled.robot,
         joint_names: assembled.joint_names,
         limits: assembled.limits,
-        frames: assembled.frames,
+        frames,
         tools: file.tool.iter().map(|tool| tool.name.clone()).collect(),
         postures,
         attitude_actuator,
@@ -118,26 +125,6 @@ fn forget_made_up_names(links: &mut [Link], joints: &mut [AssemblyJoint]) {
             name.clear();
         }
     }
-}
-
-/// A tool is a massless link, fixed to its body.
-fn tool(reading: &mut Reading<'_>, path: &[Step<'_>], file: &ToolFile) -> (Link, AssemblyJoint) {
-    let at = reading.below(path, "name");
-    let mount = AssemblyJoint {
-        name: format!("mount of {}", file.name),
-        at: at.clone(),
-        parent: file.on.clone(),
-        parent_at: reading.below(path, "on"),
-        child: file.name.clone(),
-        child_at: at.clone(),
-        kind: None,
-        X_PC: reading.pose(path, file.position_m, file.orientation.as_ref()),
-        axis: vec3(0.0, 0.0, 1.0),
-        axis_at: at.clone(),
-        limits: JointLimits::default(),
-        limits_at: at.clone(),
-    };
-    (Link { name: file.name.clone(), at, matter: None }, mount)
 }
 
 fn actuator(reading: &mut Reading<'_>, file: &ActuatorFile) -> AttitudeActuator<f64> {

@@ -116,13 +116,26 @@ pub(crate) fn limits(
     }
     let travel_m = in_order(reading, path, name, "m", file.travel_m);
     let travel_deg = in_order(reading, path, name, "deg", file.travel_deg);
+    let mut above_zero = |key: &str, value: Option<f64>| {
+        let value = value?;
+        if value != 0.0 {
+            return Some(value);
+        }
+        let message = format!("{key} of joint '{name}' is 0: the joint could not be driven");
+        let help = "leave out what is not limited; a joint that never moves has kind = \"fixed\"";
+        reading.error(&under(path, key), message, "this limit", help);
+        None
+    };
+    let rate = above_zero("rate_deg_s", file.rate_deg_s).map(f64::to_radians);
+    let rate = rate.or(above_zero("rate_m_s", file.rate_m_s));
+    let effort = above_zero("effort_nm", file.effort_nm).or(above_zero("effort_n", file.effort_n));
     JointLimits {
         travel: travel_deg
             .map(|ends| ends.map(f64::to_radians))
             .or(travel_m)
             .map(|[lower, upper]| (lower, upper)),
-        rate: file.rate_deg_s.map(f64::to_radians).or(file.rate_m_s),
-        effort: file.effort_nm.or(file.effort_n),
+        rate,
+        effort,
     }
 }
 

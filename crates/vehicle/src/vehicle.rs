@@ -52,6 +52,24 @@ pub struct NamedFrame {
     pub name: String,
     /// Where it is fixed.
     pub frame: Frame<f64>,
+    /// How far the grip of a payload may be from it when it is grasped here.
+    pub grasp_bounds: GraspBounds,
+}
+
+/// How far the grip of a payload may be from a tool that grasps it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GraspBounds {
+    /// Largest distance between the origins of tool and grip (m).
+    pub distance: f64,
+    /// Largest angle between their axes (rad).
+    pub angle: f64,
+}
+
+impl Default for GraspBounds {
+    /// 5 mm and 0.5 deg.
+    fn default() -> Self {
+        Self { distance: 0.005, angle: 0.5_f64.to_radians() }
+    }
 }
 
 /// A named joint posture.
@@ -85,7 +103,7 @@ pub struct Provenance {
     pub source: String,
 }
 
-/// A body's outline, for drawings only.
+/// A body's outline: for drawings, and for what must stay outside of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shape {
     /// Name of the link.

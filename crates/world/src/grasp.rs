@@ -4,28 +4,73 @@ use crate::free_body::FreeBody;
 use crate::setup::Drive;
 use crate::world::World;
 use wrasse_dynamics::{
-    BodyId, Frame, JointDrive, PerBody, Robot, State, driven_dynamics, inverse_dynamics, kinematics,
+    BodyId, Frame, JointDrive, Kinematics, PerBody, Robot, State, driven_dynamics,
+    inverse_dynamics, kinematics,
 };
-use wrasse_spatial::{SpatialForce, SpatialVelocity};
+use wrasse_spatial::{Quat, SpatialForce, SpatialVelocity};
 
-/// A grasp that was refused: the grip and the payload move too differently.
+/// How the grip of a payload lies in a tool and moves against it; or the most that a grasp allows.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GraspRefused {
+pub struct GripOffset {
+    /// Distance of the origins (m).
+    pub distance: f64,
+    /// Angle between the axes (rad).
+    pub angle: f64,
     /// Relative angular speed (rad/s).
     pub angular_speed: f64,
-    /// Relative speed of the grip point (m/s).
+    /// Relative speed of the grip at the tool's origin (m/s).
     pub linear_speed: f64,
+}
+
+impl GripOffset {
+    /// That of a body, whose frame is its grip, from a tool frame of a vehicle.
+    pub fn of<const J: usize>(
+        k: &Kinematics<'_, f64, J>,
+        tool: &Frame<f64>,
+        body: &FreeBody,
+    ) -> Self {
+        let X_FT = k.pose(tool).inverse() * body.pose();
+        let V = relative_twist(k, tool, body);
+        Self {
+            distance: X_FT.translation.norm(),
+            angle: Quat::from_matrix(&X_FT.rotation).log().norm(),
+            angular_speed: V.angular.norm(),
+            linear_speed: V.linear.norm(),
+        }
+    }
+    /// Whether all of it is within these bounds: what is not a number is within none.
+    pub fn is_within(&self, most: &Self) -> bool {
+        self.distance <= most.distance
+            && self.angle <= most.angle
+            && self.angular_speed <= most.angular_speed
+            && self.linear_speed <= most.linear_speed
+    }
+}
+
+/// A grasp that was refused, for what it found is not within the bounds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GraspRefused(pub GripOffset);
+
+/// Twist of a body relative to a frame of a vehicle, at the frame's origin, inertial axes.
+fn relative_twist<const J: usize>(
+    k: &Kinematics<'_, f64, J>,
+    frame: &Frame<f64>,
+    body: &FreeBody,
+) -> SpatialVelocity<f64> {
+    let (X_NT, V_NT_T) = (body.pose(), body.twist());
+    let at_T = SpatialVelocity::new(X_NT.rotation * V_NT_T.angular, X_NT.rotation * V_NT_T.linear);
+    at_T.shifted_by(k.pose(frame).translation - X_NT.translation) - k.velocity(frame)
 }
 
 impl<const J: usize> World<J> {
     /// Twist of free body `i` relative to a frame, at the frame's origin, inertial axes.
     pub fn relative_twist(&self, frame: &Frame<f64>, i: usize) -> SpatialVelocity<f64> {
-        let state = self.state();
-        let k = kinematics(&self.robot, &state);
-        let (X_NT, V_NT_T) = (self.free[i].pose(), self.free[i].twist());
-        let at_T =
-            SpatialVelocity::new(X_NT.rotation * V_NT_T.angular, X_NT.rotation * V_NT_T.linear);
-        at_T.shifted_by(k.pose(frame).translation - X_NT.translation) - k.velocity(frame)
+        relative_twist(&kinematics(&self.robot, &self.state()), frame, &self.free[i])
+    }
+
+    /// How free body `i` lies in a tool frame and moves against it.
+    pub fn grip_offset(&self, tool: &Frame<f64>, i: usize) -> GripOffset {
+        GripOffset::of(&kinematics(&self.robot, &self.state()), tool, &self.free[i])
     }
 
     /// Make free body `i` part of the body that carries `frame`, where it is now: a plastic impact.
@@ -34,7 +79,7 @@ impl<const J: usize> World<J> {
     /// energy (J) is returned.
     ///
     /// # Errors
-    /// If the relative twist is not within the bounds (rad/s, m/s).
+    /// If how it lies in the frame and moves against it is not within the bounds.
     ///
     /// # Panics
     /// If no body of this number floats.
@@ -42,20 +87,18 @@ impl<const J: usize> World<J> {
         &mut self,
         frame: &Frame<f64>,
         i: usize,
-        largest_angular: f64,
-        largest_linear: f64,
+        most: &GripOffset,
     ) -> Result<f64, GraspRefused> {
-        let V = self.relative_twist(frame, i);
-        let (angular_speed, linear_speed) = (V.angular.norm(), V.linear.norm());
-        let within = angular_speed <= largest_angular && linear_speed <= largest_linear;
-        if !within {
-            return Err(GraspRefused { angular_speed, linear_speed });
+        let found = self.grip_offset(frame, i);
+        if !found.is_within(most) {
+            return Err(GraspRefused(found));
         }
         let body = self.free.remove(i);
         let state = self.state();
         let X_FT = self.pose(frame).inverse() * body.pose();
         let alone = self.robot;
-        self.held.push((*frame, body.matter.seen_from(&X_FT)));
+        // Held by its own frame: let go, it has it again.
+        self.held.push((Frame { body: frame.body, X_BF: frame.X_BF * X_FT }, body.matter));
         let m = self.mass;
         let total = m + body.matter.M_F_F.mass;
         self.rebuild(total);

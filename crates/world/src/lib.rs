@@ -29,7 +29,7 @@ pub use command::Saturation;
 pub use failure::Failure;
 pub use flow::Flow;
 pub use free_body::FreeBody;
-pub use grasp::GraspRefused;
+pub use grasp::{GraspRefused, GripOffset};
 pub use ledger::{Account, Ledger};
 pub use noise::Noise;
 pub use propellant::Carried;

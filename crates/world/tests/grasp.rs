@@ -8,13 +8,19 @@ use wrasse_dynamics::{
     BodyId, Frame, Joint, JointKind, Payload, Robot, State, jacobian, kinematics, mass_matrix,
 };
 use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
-use wrasse_spatial::{Pose, SpatialForce, SpatialInertia, SpatialVelocity, Sym3, Vec3, vec3};
+use wrasse_spatial::{Pose, Quat, SpatialForce, SpatialInertia, SpatialVelocity, Sym3, Vec3, vec3};
 use wrasse_world::{
-    Account, BaseAttitude, Drive, Equipment, FreeBody, Ledger, Stepper, World, WorldSetup,
+    Account, BaseAttitude, Drive, Equipment, FreeBody, GraspRefused, GripOffset, Ledger, Stepper,
+    World, WorldSetup,
 };
 
 /// Largest relative twist that is accepted, where a test does not ask for another (rad/s, m/s).
 const BOUNDS: (f64, f64) = (1.0, 1.0);
+
+/// A grasp that takes what moves at most so fast against the grip (rad/s, m/s), wherever it is.
+fn moving_at_most(angular_speed: f64, linear_speed: f64) -> GripOffset {
+    GripOffset { distance: f64::INFINITY, angle: f64::INFINITY, angular_speed, linear_speed }
+}
 
 fn at_rest() -> State<f64, J> {
     State { v: [0.0; J], ..moving() }
@@ -48,7 +54,9 @@ fn joints_driven_by_torque_give_way_at_a_grasp() {
     let body = in_the_grip(&world, &frame, vec3(0.02, -0.01, 0.03), vec3(0.05, 0.02, -0.04));
     let number = world.add_free_body(body);
     let start = world.account();
-    let change = world.grasp(&frame, number, BOUNDS.0, BOUNDS.1).expect("within the bounds");
+    let change = world
+        .grasp(&frame, number, &moving_at_most(BOUNDS.0, BOUNDS.1))
+        .expect("within the bounds");
     let after = world.state();
     assert!((0..J).any(|j| (after.v[j] - before.v[j]).abs() > 1e-4), "no joint gave way");
     // Generalized momentum of the joints, by the mass matrices, and the payload's by the Jacobian.
@@ -124,7 +132,7 @@ fn at_a_grasp_momentum_and_place_continue_and_the_joints_keep_their_rates() {
         let mut world = world(start, BaseAttitude::Free);
         let i = world.add_free_body(in_the_grip(&world, &grip(), SPIN, DRIFT));
         let (state, before) = (world.state(), world.account());
-        world.grasp(&grip(), i, BOUNDS.0, BOUNDS.1).expect("within the bounds");
+        world.grasp(&grip(), i, &moving_at_most(BOUNDS.0, BOUNDS.1)).expect("within the bounds");
         let (then, after) = (world.state(), world.account());
         let momentum = momentum_apart(&before, &after);
         assert!(momentum < 1e-14, "momentum jumped by {momentum:e} of its scale");
@@ -163,7 +171,7 @@ fn a_grasp_by_a_still_arm_loses_what_two_bodies_that_stick_together_lose() {
     let (M, h) = rigid(&world);
     let together = 0.5 * M.velocity_of(&h).power(&h);
     let predicted = together - ledger.start.energy;
-    world.grasp(&grip(), i, BOUNDS.0, BOUNDS.1).expect("within the bounds");
+    world.grasp(&grip(), i, &moving_at_most(BOUNDS.0, BOUNDS.1)).expect("within the bounds");
     world.update_ledger(&mut ledger);
     assert!(predicted < -1e-3, "a loss of {predicted} J would prove little");
     assert!((ledger.energy_at_grasps - predicted).abs() < 1e-13);
@@ -181,7 +189,7 @@ fn a_grasp_without_relative_motion_changes_no_velocity() {
     let (state, before) = (world.state(), world.account());
     let relative = world.relative_twist(&grip(), i).to_array();
     assert!(relative.iter().all(|x| x.abs() < 1e-15), "{relative:?}");
-    world.grasp(&grip(), i, 1e-12, 1e-12).expect("nothing moves in the grip");
+    world.grasp(&grip(), i, &moving_at_most(1e-12, 1e-12)).expect("nothing moves in the grip");
     let jump = motion_apart(&state, &world.state());
     assert!(jump < 1e-14, "velocities jumped by {jump:e}");
     let lost = world.account().energy - before.energy;
@@ -215,7 +223,7 @@ fn a_drive_that_keeps_its_rate_can_put_energy_in_at_a_grasp() {
         world.add_free_body(FreeBody::new(ball(10.0), &Pose::identity(), &SpatialVelocity::zero()));
     let mut ledger = world.open_ledger();
     let tip = Frame { body: BodyId::Link(0), X_BF: Pose::identity() };
-    world.grasp(&tip, i, BOUNDS.0, BOUNDS.1).expect("within the bounds");
+    world.grasp(&tip, i, &moving_at_most(BOUNDS.0, BOUNDS.1)).expect("within the bounds");
     world.update_ledger(&mut ledger);
     let reduced = 30.0 * 10.0 / 40.0;
     let expected = 0.5 * reduced * 0.2 * 0.2;
@@ -230,14 +238,36 @@ fn a_grasp_above_its_bounds_is_refused_with_the_numbers_and_changes_nothing() {
     let (state, before) = (world.state(), world.account());
     let (w, v) = (SPIN.norm(), DRIFT.norm());
     for (angular, linear) in [(0.99 * w, 1.0), (1.0, 0.99 * v), (0.0, 0.0)] {
-        let refused = world.grasp(&grip(), i, angular, linear).expect_err("too fast");
+        let bounds = moving_at_most(angular, linear);
+        let GraspRefused(refused) = world.grasp(&grip(), i, &bounds).expect_err("too fast");
         let off = (refused.angular_speed - w).abs().max((refused.linear_speed - v).abs());
         // Measured: 3e-17.
         assert!(off < 1e-15, "speeds {refused:?}, expected {w} rad/s and {v} m/s");
     }
     assert_eq!((world.state(), world.account()), (state, before));
     assert_eq!((world.free_bodies().len(), world.held().len()), (1, 0));
-    assert!(world.grasp(&grip(), i, 1.01 * w, 1.01 * v).is_ok());
+    assert!(world.grasp(&grip(), i, &moving_at_most(1.01 * w, 1.01 * v)).is_ok());
+}
+
+/// A module at rest, 20 mm and 2 deg from the tool: refused for either, and for nothing else.
+#[test]
+fn a_grasp_beside_its_grip_is_refused_with_distance_and_angle_and_changes_nothing() {
+    let mut world = world(at_rest(), BaseAttitude::Free);
+    let angle = 2.0_f64.to_radians();
+    let beside = Pose::from_quat(Quat::exp(vec3(0.0, angle, 0.0)), vec3(0.012, 0.0, -0.016));
+    let X_NT = world.pose(&grip()) * beside;
+    let i = world.add_free_body(FreeBody::new(load(), &X_NT, &SpatialVelocity::zero()));
+    let bounds = |distance, angle| GripOffset { distance, angle, ..moving_at_most(1.0, 1.0) };
+    let before = (world.state(), world.account());
+    for (distance, most) in [(0.019, 0.1), (0.1, 0.99 * angle), (0.005, 0.5_f64.to_radians())] {
+        let GraspRefused(found) =
+            world.grasp(&grip(), i, &bounds(distance, most)).expect_err("beside it");
+        // Measured: 7e-17 m, 3e-16 rad.
+        assert!((found.distance - 0.02).abs() < 1e-14, "{found:?}");
+        assert!((found.angle - angle).abs() < 1e-14, "{found:?}");
+    }
+    assert_eq!((world.state(), world.account()), before);
+    assert!(world.grasp(&grip(), i, &bounds(0.0201, 1.01 * angle)).is_ok());
 }
 
 /// A speed that is not a number is within no bound.
@@ -247,7 +277,7 @@ fn a_grasp_of_a_body_without_a_motion_is_refused() {
     let mut body = in_the_grip(&world, &grip(), SPIN, DRIFT);
     body.angular.x = f64::NAN;
     let i = world.add_free_body(body);
-    assert!(world.grasp(&grip(), i, BOUNDS.0, BOUNDS.1).is_err());
+    assert!(world.grasp(&grip(), i, &moving_at_most(BOUNDS.0, BOUNDS.1)).is_err());
 }
 
 /// The held base takes the angular impulse; the actuator books it and the books close. An
@@ -259,7 +289,7 @@ fn a_grasp_with_the_attitude_held_books_the_impulse_of_the_actuator() {
     let mut world = world(start, BaseAttitude::Held);
     let i = world.add_free_body(in_the_grip(&world, &grip(), SPIN, DRIFT));
     let mut ledger = world.open_ledger();
-    world.grasp(&grip(), i, BOUNDS.0, BOUNDS.1).expect("within the bounds");
+    world.grasp(&grip(), i, &moving_at_most(BOUNDS.0, BOUNDS.1)).expect("within the bounds");
     world.update_ledger(&mut ledger);
     let [angular, linear, _] = ledger.rests();
     assert!(ledger.angular_from_actuator.norm() > 0.01, "no impulse to book");
@@ -322,12 +352,12 @@ fn the_books_close_over_grasps_and_releases_of_several_payloads() {
             world.update_ledger(ledger);
         }
     };
-    world.grasp(&elbow, second, BOUNDS.0, BOUNDS.1).expect("within the bounds");
-    world.grasp(&grip(), first, BOUNDS.0, BOUNDS.1).expect("within the bounds");
+    world.grasp(&elbow, second, &moving_at_most(BOUNDS.0, BOUNDS.1)).expect("within the bounds");
+    world.grasp(&grip(), first, &moving_at_most(BOUNDS.0, BOUNDS.1)).expect("within the bounds");
     fly(&mut world, &mut ledger);
     let free = world.release(0);
     fly(&mut world, &mut ledger);
-    world.grasp(&grip(), free, 10.0, 10.0).expect("within the bounds");
+    world.grasp(&grip(), free, &moving_at_most(10.0, 10.0)).expect("within the bounds");
     fly(&mut world, &mut ledger);
     for (i, bound) in [1e-14, 1e-14, 1e-7].into_iter().enumerate() {
         let share = ledger.worst[i] / ledger.scale[i];
@@ -353,9 +383,9 @@ fn free_bodies_and_held_payloads_are_numbered_in_order() {
         world.held().iter().map(|(_, payload)| payload.M_F_F.mass).collect::<Vec<_>>()
     };
     let any = f64::INFINITY;
-    world.grasp(&grip(), 1, any, any).expect("any speed will do");
+    world.grasp(&grip(), 1, &moving_at_most(any, any)).expect("any speed will do");
     assert_eq!((free(&world), held(&world)), (vec![1.0, 3.0], vec![2.0]));
-    world.grasp(&grip(), 0, any, any).expect("any speed will do");
+    world.grasp(&grip(), 0, &moving_at_most(any, any)).expect("any speed will do");
     assert_eq!((free(&world), held(&world)), (vec![3.0], vec![2.0, 1.0]));
     assert_eq!(world.release(0), 1);
     assert_eq!((free(&world), held(&world)), (vec![3.0, 2.0], vec![1.0]));

@@ -13,7 +13,7 @@ pub use limits::{BadNumber, BadNumbers, Expected, MotionLimits, Quantity};
 pub use profile::{Profile, ProfileShape};
 pub use quintic::Quintic;
 pub use s_curve::SCurve;
-pub use straight_line::{StraightLine, ToolMotion};
+pub use straight_line::{StraightLine, ToolMotion, ToolWay};
 
 /// Where one coordinate is, how fast, and how fast that changes.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

@@ -26,14 +26,53 @@ pub struct ToolMotion<T> {
     pub Vdot_NE_N: SpatialVelocity<T>,
 }
 
+/// What lies between the two ends of a line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ToolWay<T> {
+    /// From the first to the last position, N axes (m).
+    pub displacement_N: Vec3<T>,
+    /// Rotation vector from the first to the last orientation, N axes (rad): of any number of turns.
+    pub turn_N: Vec3<T>,
+}
+
+impl<T: Scalar> ToolWay<T> {
+    /// Between two poses, turning on the shorter way.
+    pub fn between(X_NE0: &Pose<T>, X_NE1: &Pose<T>) -> Self {
+        let R_E0E1 = X_NE0.rotation.transpose() * X_NE1.rotation;
+        Self {
+            displacement_N: X_NE1.translation - X_NE0.translation,
+            turn_N: X_NE0.rotation * Quat::from_matrix(&R_E0E1).log(),
+        }
+    }
+    /// The same, if its numbers are finite; errors if they are not.
+    fn finite(&self) -> Result<(), BadNumbers> {
+        BadNumbers::none_of([
+            BadNumber::unless_finite(Quantity::Way, self.displacement_N.norm()),
+            BadNumber::unless_finite(Quantity::Rotation, self.turn_N.norm()),
+        ])
+    }
+}
+
 impl<T: Scalar> StraightLine<T> {
     /// From `X_NE0` to `X_NE1`; the profile may be over any length, its fraction is what counts.
     ///
     /// # Errors
     /// If a pose is not finite, or the profile has no length although the poses differ.
     pub fn new(X_NE0: Pose<T>, X_NE1: Pose<T>, profile: Profile<T>) -> Result<Self, BadNumbers> {
-        let (displacement_N, turn_E0) = between(&X_NE0, &X_NE1)?;
-        let stuck = X_NE0 != X_NE1 && profile.length() <= T::zero();
+        Self::along(X_NE0, &ToolWay::between(&X_NE0, &X_NE1), profile)
+    }
+    /// From `X_NE0` this way.
+    ///
+    /// # Errors
+    /// If the way is not finite, or the profile has no length although the way has one.
+    pub fn along(
+        X_NE0: Pose<T>,
+        way: &ToolWay<T>,
+        profile: Profile<T>,
+    ) -> Result<Self, BadNumbers> {
+        way.finite()?;
+        let moves = *way != ToolWay { displacement_N: Vec3::zero(), turn_N: Vec3::zero() };
+        let stuck = moves && profile.length() <= T::zero();
         let expected = Expected::PositiveSinceTheEndsDiffer;
         BadNumbers::none_of([BadNumber::unless(
             !stuck,
@@ -41,7 +80,7 @@ impl<T: Scalar> StraightLine<T> {
             profile.length(),
             expected,
         )])?;
-        Ok(Self { X_NE0, displacement_N, turn_E0, profile })
+        Ok(Self::of(X_NE0, way, profile))
     }
     /// The shortest move of this shape under limits of the position (m) and of the turn (rad).
     ///
@@ -54,11 +93,24 @@ impl<T: Scalar> StraightLine<T> {
         linear: &MotionLimits<T>,
         angular: &MotionLimits<T>,
     ) -> Result<Self, BadNumbers> {
-        let (displacement_N, turn_E0) = between(&X_NE0, &X_NE1)?;
+        Self::along_within(X_NE0, &ToolWay::between(&X_NE0, &X_NE1), shape, linear, angular)
+    }
+    /// The same from `X_NE0` this way.
+    ///
+    /// # Errors
+    /// If the way is not finite or a limit not positive and finite.
+    pub fn along_within(
+        X_NE0: Pose<T>,
+        way: &ToolWay<T>,
+        shape: ProfileShape,
+        linear: &MotionLimits<T>,
+        angular: &MotionLimits<T>,
+    ) -> Result<Self, BadNumbers> {
+        way.finite()?;
         // Bad limits are complained of even where they would not count.
-        let distance = displacement_N.norm();
+        let distance = way.displacement_N.norm();
         let along = Profile::within(shape, distance, linear)?;
-        let angle = turn_E0.norm();
+        let angle = way.turn_N.norm();
         let about = Profile::within(shape, angle, angular)?;
         let profile = match (distance > T::zero(), angle > T::zero()) {
             (true, true) => {
@@ -68,20 +120,12 @@ impl<T: Scalar> StraightLine<T> {
             (false, true) => about,
             _ => along,
         };
-        Ok(Self { X_NE0, displacement_N, turn_E0, profile })
+        Ok(Self::of(X_NE0, way, profile))
     }
-}
-
-/// Displacement (N axes, m) and rotation vector (axes of the first pose, rad) between two poses.
-fn between<T: Scalar>(X_NE0: &Pose<T>, X_NE1: &Pose<T>) -> Result<(Vec3<T>, Vec3<T>), BadNumbers> {
-    let displacement_N = X_NE1.translation - X_NE0.translation;
-    let R_E0E1 = X_NE0.rotation.transpose() * X_NE1.rotation;
-    let rows = R_E0E1.rows.map(|row| row.x + row.y + row.z);
-    BadNumbers::none_of([
-        BadNumber::unless_finite(Quantity::Way, displacement_N.norm()),
-        BadNumber::unless_finite(Quantity::Rotation, rows[0] + rows[1] + rows[2]),
-    ])?;
-    Ok((displacement_N, Quat::from_matrix(&R_E0E1).log()))
+    fn of(X_NE0: Pose<T>, way: &ToolWay<T>, profile: Profile<T>) -> Self {
+        let turn_E0 = X_NE0.rotation.transpose_mul(way.turn_N);
+        Self { X_NE0, displacement_N: way.displacement_N, turn_E0, profile }
+    }
 }
 
 impl<T: Real> StraightLine<T> {

@@ -76,7 +76,9 @@ fn the_computer_flies_the_control_period() {
             let phases = [hold(Held::Joints), hold(Held::Nothing), hold(Held::Joints)];
             let mut computer = FlightComputer::new(setup, &robot, &phases);
             let mut memory = PeriodMemory::new();
-            for (k, state) in states().into_iter().take(15).enumerate() {
+            for (k, moving) in states().into_iter().take(15).enumerate() {
+                // Joints that move as a phase begins would be brought to rest first.
+                let state = wrasse_dynamics::State { v: [0.0; 7], ..moving };
                 let asked = if (5..10).contains(&k) { Asked::Coast } else { Asked::Still };
                 let sensed = Sensed::perfect(&state, ActuatorReadings::default());
                 let command = computer.step(&sensed).unwrap();
