@@ -13,7 +13,7 @@ use crate::sequence::BadPhase;
 use crate::steering::{Steered, Unit};
 use wrasse_dynamics::{Frame, Robot, State};
 use wrasse_hardware::{ActuatorReadings, JointLimits};
-use wrasse_spatial::{Pose, Quat, Real, Scalar};
+use wrasse_spatial::{Pose, Quat, Real, Scalar, Vec3};
 
 /// How a flight computer is set up.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -142,8 +142,9 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         let (robot, setup) = (&self.robot, &self.setup);
         let (steered, lack_B) =
             self.base_control.command(robot, &setup.tuning, &told, state, readings);
-        let counts =
-            setup.assignment.law != ArmLaw::Terrestrial && setup.base.actuation != Actuation::None;
+        let counts = lack_B != Vec3::zero()
+            && setup.assignment.law != ArmLaw::Terrestrial
+            && setup.base.actuation != Actuation::None;
         let told = if counts { told.without_base_torque(robot, setup, lack_B) } else { told };
         (told, steered)
     }
