@@ -2,10 +2,10 @@
 
 use crate::phase_format::AxesFile;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// Which actuators turn the base.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum ActuatorsFile {
     /// The vehicle's ideal `[attitude_actuator]`, with its limits.
@@ -17,7 +17,7 @@ pub(crate) enum ActuatorsFile {
 }
 
 /// What the laws know the state by.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum SensingFile {
     /// Perfect sensors.
@@ -27,7 +27,7 @@ pub(crate) enum SensingFile {
 }
 
 /// How the wheels share a torque.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum WheelLawFile {
     /// Least sum of squares of the motor torques.
@@ -38,7 +38,7 @@ pub(crate) enum WheelLawFile {
 }
 
 /// How the gimbals of the gyros are turned.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum GyroLawFile {
     /// Least gimbal rates: exact, and lost at a singular setting.
@@ -51,7 +51,7 @@ pub(crate) enum GyroLawFile {
 }
 
 /// From a wanted torque to what each actuator is told.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct SteeringFile {
     /// How the wheels share a torque.
@@ -88,7 +88,7 @@ impl Default for SteeringFile {
 }
 
 /// Pulse-width pulse-frequency modulation: a lag and a switch with hysteresis for each thruster.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct ModulationFile {
     /// Gain before the lag.
@@ -108,7 +108,7 @@ impl Default for ModulationFile {
 }
 
 /// Thrusters take over what wheels and gyros have stored.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct UnloadingFile {
     /// Stored momentum at which it begins.
@@ -120,7 +120,7 @@ pub(crate) struct UnloadingFile {
 }
 
 /// Keep the centre of mass where it was at the start, by thrusters.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PositionHoldFile {
     /// Bandwidth of the loop.
@@ -135,7 +135,7 @@ fn one() -> f64 {
 }
 
 /// What estimates start from.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct EstimationFile {
     /// How well the attitude is known at the start (one sigma).
@@ -153,7 +153,7 @@ impl Default for EstimationFile {
 }
 
 /// A wrench from outside on the vehicle.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WrenchFile {
     /// The tool or frame at whose origin it acts.

@@ -7,7 +7,7 @@ use crate::base_format::{
 use crate::dispersion_format::DisperseFile;
 use crate::phase_format::PhaseFile;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use wrasse_vehicle::{EquipmentFile, SensorsFile};
 
@@ -90,7 +90,7 @@ pub(crate) struct RowFile {
 
 /// An attitude, from the axes of the thing to those it is measured in: `{ rpy_deg = [roll, pitch, yaw] }`
 /// or a unit quaternion, `{ w = …, x = …, y = …, z = … }` or `{ quaternion = { … } }`.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema, Serialize)]
 #[serde(untagged)]
 pub(crate) enum AttitudeFile {
     /// Turns about the fixed axes of what it is measured in, roll first (deg).
@@ -102,7 +102,7 @@ pub(crate) enum AttitudeFile {
 }
 
 /// Roll, pitch and yaw.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AnglesFile {
     /// Roll, pitch, yaw (deg): turns about fixed axes, roll first.
@@ -110,7 +110,7 @@ pub(crate) struct AnglesFile {
 }
 
 /// A unit quaternion under its name.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct UnderQuaternionFile {
     /// The quaternion.
@@ -118,7 +118,7 @@ pub(crate) struct UnderQuaternionFile {
 }
 
 /// A unit quaternion.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct QuaternionFile {
     /// Scalar part.
@@ -132,7 +132,7 @@ pub(crate) struct QuaternionFile {
 }
 
 /// Where everything is at the start.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct InitialFile {
     /// A posture that the vehicle file names.
@@ -199,7 +199,7 @@ pub(crate) struct FreeFile {
 }
 
 /// What becomes of the base's attitude.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum BaseFile {
     /// Held exactly; the torque that this takes is recorded.
@@ -211,7 +211,7 @@ pub(crate) enum BaseFile {
 }
 
 /// How joints move.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum JointsFile {
     /// They follow their set-points exactly, whatever it takes.
@@ -221,7 +221,7 @@ pub(crate) enum JointsFile {
 }
 
 /// The simulated truth.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct WorldFile {
     /// What becomes of the base's attitude.
@@ -252,7 +252,7 @@ impl Default for WorldFile {
 }
 
 /// What the arm law takes the base for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum ArmLawFile {
     /// Bolted to the ground.
@@ -264,7 +264,7 @@ pub(crate) enum ArmLawFile {
 }
 
 /// What the attitude control is told of the arm's motion.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum FeedforwardFile {
     /// The exact torque.
@@ -278,7 +278,7 @@ pub(crate) enum FeedforwardFile {
 }
 
 /// What the guidance measures. The joint loops and the attitude law always use their own sensors.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum MeasurementFile {
     /// Nothing after the start: each law integrates its own model.
@@ -288,7 +288,7 @@ pub(crate) enum MeasurementFile {
 }
 
 /// Which part of the tool's motion counts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum TaskFile {
     /// Position and orientation.
@@ -298,7 +298,7 @@ pub(crate) enum TaskFile {
 }
 
 /// A posture that the arm drifts to as far as the task leaves it free.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct RedundancyFile {
     /// A posture that the vehicle file names.
@@ -308,7 +308,7 @@ pub(crate) struct RedundancyFile {
 }
 
 /// The laws that fly.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct ControlFile {
     /// Control periods per second.
@@ -378,7 +378,7 @@ impl Default for ControlFile {
 }
 
 /// How much is recorded.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct OutputFile {
     /// Samples per second in the telemetry; metrics always see every control period.

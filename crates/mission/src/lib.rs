@@ -5,6 +5,7 @@
 mod advice;
 mod applied_wrench;
 mod arm_shape;
+mod as_flown;
 mod asked;
 mod base_format;
 mod books;
@@ -49,6 +50,7 @@ mod telemetry;
 mod telling;
 mod variation;
 
+pub use as_flown::Setting;
 pub use base_format::ClaimIs;
 pub use mission::{Mission, Study};
 pub use outcome::{

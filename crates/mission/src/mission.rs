@@ -1,6 +1,7 @@
 //! A checked mission: ready to be planned and flown.
 
 use crate::applied_wrench::AppliedWrench;
+use crate::as_flown::Setting;
 use crate::base_format::{ClaimIs, StudyFile};
 use crate::case_world::fuelled;
 use crate::dispersion::Dispersion;
@@ -155,6 +156,8 @@ pub(crate) struct Case {
     pub(crate) output_rate: f64,
     /// Instants in the drawing.
     pub(crate) snapshots: u32,
+    /// Laws and world as they are flown.
+    pub(crate) as_flown: Vec<Setting>,
 }
 
 /// Mass properties in the flight computer's belief.

@@ -1,6 +1,7 @@
 //! What a run leaves behind: verdicts, ledger, telemetry, pictures. Plain data for those who
 //! record, draw or judge it.
 
+use crate::as_flown::Setting;
 use crate::observe::Observation;
 use serde::{Deserialize, Serialize};
 use wrasse_flight::Command;
@@ -109,6 +110,8 @@ pub struct CaseOutcome {
     pub metrics: Vec<Metric>,
     /// Momentum and energy.
     pub ledger: Ledger,
+    /// Laws and world as they were flown, and which of the settings are defaults.
+    pub as_flown: Vec<Setting>,
     /// What was planned before the arm moved, a line for each phase.
     pub plan: Vec<PlanLine>,
     /// Things that happened, in order: phases, limits reached, saturations.

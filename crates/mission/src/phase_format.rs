@@ -27,7 +27,7 @@ pub(crate) struct PhaseFile {
 }
 
 /// Axes that a target is fixed in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum AxesFile {
     /// Inertial space.

@@ -120,6 +120,37 @@ pub(crate) fn turning(r: &mut Reading<'_>, file: &MissionFile, equipment: &Equip
     Turning::Ideal(ideal)
 }
 
+/// Doubts units that are fitted and do nothing.
+pub(crate) fn doubt_idle_units(
+    r: &mut Reading<'_>,
+    file: &MissionFile,
+    turning: Turning,
+    equipment: &Equipment,
+) {
+    let is_controlled = file.world.base_attitude == BaseFile::Controlled;
+    if equipment.actuators.is_empty() || (is_controlled && turning == Turning::Fitted) {
+        return;
+    }
+    let (path, why, help) = if is_controlled {
+        (
+            at!["control", "actuators"],
+            "an ideal actuator turns the base",
+            "\"fitted\" flies with them",
+        )
+    } else {
+        let why = match file.world.base_attitude {
+            BaseFile::Held => "the base is held from outside",
+            _ => "the base floats",
+        };
+        (at!["world", "base_attitude"], why, "\"controlled\" flies with them")
+    };
+    let by_default = if r.is_there(path) { "" } else { ", by default" };
+    let message = format!(
+        "wheels, gyros and thrusters are fitted and do nothing: {why}{by_default}; their masses count"
+    );
+    r.warning(path, message, help);
+}
+
 /// How the base is controlled.
 pub(crate) fn base_control(
     r: &mut Reading<'_>,

@@ -1,5 +1,6 @@
 //! A mission file to a checked mission, with all complaints at once.
 
+use crate::as_flown::as_flown;
 use crate::dispersible::Nominal;
 use crate::folder_name::wrong_with_folder_name;
 use crate::format::MissionFile;
@@ -7,7 +8,8 @@ use crate::mission::{Case, Mission, PayloadCase, PhaseCase, Study};
 use crate::phase_format::PhaseFile;
 use crate::quantity::{Quantity, quantities};
 use crate::read_base::{
-    Turning, applied_wrenches, base_control, equipment, failures, navigation, sensors, turning,
+    Turning, applied_wrenches, base_control, doubt_idle_units, equipment, failures, navigation,
+    sensors, turning,
 };
 use crate::read_dispersions::dispersions;
 use crate::read_payload::payloads;
@@ -160,6 +162,7 @@ fn read_case(
     let start = start(r, &file);
     let equipment = equipment(r, &file);
     let turning = turning(r, &file, &equipment);
+    doubt_idle_units(r, &file, turning, &equipment);
     let (fitted_sensors, sensors) = sensors(r, &file);
     let fitted = (turning == Turning::Fitted).then_some(&equipment);
     let (base_control, navigation) =
@@ -180,7 +183,7 @@ fn read_case(
     let nominal = Nominal::of(&vehicle, (&start, base), &payloads, &fitted_sensors);
     let dispersions = dispersions(r, &file.disperse, &nominal);
     let mut complaints = reading.complaints;
-    let case = Case {
+    let mut case = Case {
         labels,
         vehicle_name: file.vehicle.clone(),
         vehicle: Arc::new(vehicle),
@@ -204,7 +207,9 @@ fn read_case(
         quantities,
         output_rate,
         snapshots: file.output.snapshots,
+        as_flown: vec![],
     };
+    case.as_flown = as_flown(document, &file, &case);
     complaints.extend(check_loops(document, &case));
     if complaints.iter().any(|c| c.severity == Severity::Error) {
         return Err(complaints);

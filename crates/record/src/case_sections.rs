@@ -40,6 +40,7 @@ pub(crate) fn case_sections(case: &CaseOutcome, place: &Place) -> String {
         place.section("verdicts", "Verdicts", &verdicts(case)),
         place.section("motion", "Motion", &drawing(&case.snapshots).unwrap_or_default()),
         place.section("plots", "Plots", &plots(case)),
+        place.section("as-flown", "Laws and world as flown", &as_flown(case)),
         place.section("plan", "Plan", &plan(case)),
         place.section("events", "Events", &events(case)),
         place.section("ledger", "Ledger", &ledger(case)),
@@ -115,6 +116,18 @@ fn plots(case: &CaseOutcome) -> String {
      <div class=\"plots\"><p class=\"noscript\">The plots need JavaScript; their numbers are in \
      telemetry.parquet.</p></div>\n"
         .to_owned()
+}
+
+fn as_flown(case: &CaseOutcome) -> String {
+    let rows: Vec<_> = case
+        .as_flown
+        .iter()
+        .map(|setting| vec![words(&setting.key), words(&setting.value), words(setting.origin)])
+        .collect();
+    if rows.is_empty() {
+        return String::new();
+    }
+    table("text", &["Setting", "Value", "From"], &rows)
 }
 
 fn plan(case: &CaseOutcome) -> String {

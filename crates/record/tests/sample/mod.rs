@@ -4,7 +4,7 @@
 
 use wrasse_mission::{
     CaseOutcome, Channel, End, Event, EventKind, Ledger, Metric, Outcome, PlanLine, ProvenanceRow,
-    Snapshot, SnapshotBox, Telemetry, VehicleCard, Verdict,
+    Setting, Snapshot, SnapshotBox, Telemetry, VehicleCard, Verdict,
 };
 
 const DURATION: f64 = 24.0;
@@ -142,6 +142,11 @@ fn case(labels: Vec<(String, String)>, miss: f64, samples: usize) -> CaseOutcome
     let metric =
         |name: &str, value: f64, unit: &str| Metric { name: name.into(), value, unit: unit.into() };
     CaseOutcome {
+        as_flown: vec![Setting {
+            key: "control.arm_law".into(),
+            value: "attitude-held".into(),
+            origin: "default",
+        }],
         labels,
         end: End::Completed,
         passed: verdicts.iter().all(|verdict| verdict.pass),

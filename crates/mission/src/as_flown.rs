@@ -1,0 +1,143 @@
+//! Laws and world as they are flown: each setting with its value, and whence it is.
+
+use crate::figures::rounded;
+use crate::format::MissionFile;
+use crate::mission::Case;
+use crate::read_base::Turning;
+use serde::Serialize;
+use serde_json::Value;
+use wrasse_document::{Document, Step};
+use wrasse_world::{BaseAttitude, Stepper};
+
+/// A setting of laws or world.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Setting {
+    /// Its key in a mission file: `control.arm_law`.
+    pub key: String,
+    /// Its value, in the unit of the key.
+    pub value: String,
+    /// Whence: `mission file`, `default`, or `tool and phase`.
+    pub origin: &'static str,
+}
+
+/// What was flown, in the order of the format; settings that nothing reads are left out.
+pub(crate) fn as_flown(document: &Document, file: &MissionFile, case: &Case) -> Vec<Setting> {
+    let mut settings = vec![];
+    for (table, value) in [
+        ("world", serde_json::to_value(&file.world)),
+        ("control", serde_json::to_value(&file.control)),
+    ] {
+        // The structs hold numbers, words and tables with words for keys.
+        add(&mut settings, document, table.into(), &value.unwrap_or_default());
+    }
+    settings.retain(|setting| is_read(case, &setting.key));
+    for setting in &mut settings {
+        if let Some(value) = decided(case, &setting.key) {
+            setting.value = value;
+        }
+    }
+    settings.extend(grasp_settings(case));
+    settings
+}
+
+/// A value and all below it.
+fn add(settings: &mut Vec<Setting>, document: &Document, key: String, value: &Value) {
+    if let Value::Object(table) = value {
+        for (name, value) in table {
+            add(settings, document, format!("{key}.{name}"), value);
+        }
+        return;
+    }
+    let value = match value {
+        Value::Null => "none".into(),
+        Value::String(word) => word.clone(),
+        Value::Array(items) if items.is_empty() => "none".into(),
+        Value::Array(items) if items.iter().any(Value::is_object) => items.len().to_string(),
+        other => other.to_string(),
+    };
+    let origin = if is_stated(document, &key) { "mission file" } else { "default" };
+    settings.push(Setting { key, value, origin });
+}
+
+fn is_stated(document: &Document, key: &str) -> bool {
+    let path: Vec<Step<'_>> = key.split('.').map(Step::Key).collect();
+    path.split_last().is_some_and(
+        |(last, above)| matches!(last, Step::Key(last) if document.keys(above).contains(last)),
+    )
+}
+
+/// Whether a flight of this case reads a setting.
+fn is_read(case: &Case, key: &str) -> bool {
+    let is_controlled = case.base == BaseAttitude::Controlled;
+    let is_fitted = is_controlled && case.turning == Turning::Fitted;
+    let has = |group: &str| {
+        let actuators = &case.equipment.actuators;
+        is_fitted
+            && match group {
+                "wheels" | "wheel_null_gain_per_s" => !actuators.wheels.is_empty(),
+                "gyros" | "gyro_null_gain_rad_s" | "preferred_for" => !actuators.gyros.is_empty(),
+                "modulation" => !actuators.thrusters.is_empty(),
+                _ => true,
+            }
+    };
+    let drives = case.torque.iter().any(|torque| *torque);
+    match key.split('.').collect::<Vec<_>>()[..] {
+        ["control", "steering", group, ..] => has(group),
+        ["control", "estimation", "joint_bandwidth_rad_s"] => {
+            case.sensors.is_some_and(|s| s.encoder_step > 0.0)
+        }
+        ["control", "estimation", _] => case.sensors.is_some_and(|s| s.attitude.is_some()),
+        ["control", "feedforward" | "attitude_bandwidth_rad_s" | "attitude_damping_ratio"]
+        | ["control", "position_hold", ..] => is_controlled,
+        ["control", "joint_bandwidth_rad_s" | "joint_damping_ratio"] => drives,
+        ["world", "step_s"] => matches!(case.stepper, Stepper::Fixed { .. }),
+        ["world", "adaptive_tolerance"] => matches!(case.stepper, Stepper::Adaptive { .. }),
+        _ => true,
+    }
+}
+
+/// What a setting came to that depends on others.
+fn decided(case: &Case, key: &str) -> Option<String> {
+    let vehicle = &case.vehicle;
+    Some(match key {
+        "world.step_s" => match case.stepper {
+            Stepper::Fixed { step } => rounded(step.min(case.period())).to_string(),
+            Stepper::Adaptive { .. } => return None,
+        },
+        "control.actuators" => match (case.base, case.turning) {
+            (BaseAttitude::Free, _) => "none: the base floats".into(),
+            (BaseAttitude::Held, _) => "none: the base is held from outside".into(),
+            (BaseAttitude::Controlled, Turning::Fitted) => "fitted".into(),
+            (BaseAttitude::Controlled, Turning::Ideal(None)) => "unlimited".into(),
+            (BaseAttitude::Controlled, Turning::Ideal(Some(limits))) => {
+                format!("ideal, {} N·m, {} N·m·s", limits.torque_limit, limits.momentum_limit)
+            }
+        },
+        "control.sensing" => if case.sensors.is_some() { "fitted" } else { "perfect" }.into(),
+        "control.tool" => {
+            let tool = case.setup.assignment.tool;
+            vehicle.frames.iter().find(|f| f.frame == tool).map(|f| f.name.clone())?
+        }
+        "control.redundancy" if case.setup.joints.gain == 0.0 => {
+            "none: joint rates of least norm".into()
+        }
+        _ => return None,
+    })
+}
+
+/// The bounds of each grasp.
+fn grasp_settings(case: &Case) -> Vec<Setting> {
+    let mut settings = vec![];
+    for (phase, bounds) in case.phases.iter().filter_map(|p| Some((p, p.grasp_bounds?))) {
+        let value = format!(
+            "{} mm, {} deg, {} mm/s, {} deg/s",
+            rounded(bounds.distance * 1e3),
+            rounded(bounds.angle.to_degrees()),
+            rounded(bounds.linear_speed * 1e3),
+            rounded(bounds.angular_speed.to_degrees())
+        );
+        let key = format!("phase {}: grasp bounds", phase.name);
+        settings.push(Setting { key, value, origin: "tool and phase" });
+    }
+    settings
+}
