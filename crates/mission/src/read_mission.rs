@@ -210,8 +210,12 @@ fn read_case(
         as_flown: vec![],
     };
     case.as_flown = as_flown(document, &file, &case);
-    complaints.extend(check_loops(document, &case));
-    if complaints.iter().any(|c| c.severity == Severity::Error) {
+    let is_faulty = |all: &[Complaint]| all.iter().any(|c| c.severity == Severity::Error);
+    // Where a number had to be made up, what follows from it is not said.
+    if !is_faulty(&complaints) {
+        complaints.extend(check_loops(document, &case));
+    }
+    if is_faulty(&complaints) {
         return Err(complaints);
     }
     Ok((case, complaints))

@@ -94,11 +94,15 @@ fn the_guide_states_the_defaults_of_the_schema() {
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../book/src/guide/defaults.md");
     let page = std::fs::read_to_string(page).expect("the page is there");
     let found: Vec<&str> = page.lines().filter(|line| line.starts_with("| `")).collect();
-    let stated: Vec<String> =
-        found.iter().map(|line| line.splitn(4, '|').take(3).collect::<Vec<_>>().join("|") + "|").collect();
+    let stated: Vec<String> = found
+        .iter()
+        .map(|line| line.splitn(4, '|').take(3).collect::<Vec<_>>().join("|") + "|")
+        .collect();
     let wanted: Vec<String> = rows.iter().map(|row| row.trim_end_matches(' ').to_owned()).collect();
     assert_eq!(stated, wanted, "the table should begin\n{}", wanted.join("\n"));
-    assert!(found.iter().all(|line| line.split('|').nth(3).is_some_and(|what| what.trim().len() > 8)));
+    assert!(
+        found.iter().all(|line| line.split('|').nth(3).is_some_and(|what| what.trim().len() > 8))
+    );
 }
 
 fn shown(default: &serde_json::Value) -> String {
@@ -123,8 +127,9 @@ fn fitted_units_that_do_nothing_are_remarked_on() {
     says(wheels, "fitted and do nothing: the base floats, by default");
     let held = format!("[world]\nbase_attitude = \"held\"\n{wheels}");
     says(&held, "fitted and do nothing: the base is held from outside;");
-    let unlimited =
-        format!("[world]\nbase_attitude = \"controlled\"\n[control]\nactuators = \"unlimited\"\n{wheels}");
+    let unlimited = format!(
+        "[world]\nbase_attitude = \"controlled\"\n[control]\nactuators = \"unlimited\"\n{wheels}"
+    );
     says(&unlimited, "an ideal actuator turns the base");
     let used = format!("[world]\nbase_attitude = \"controlled\"\n{wheels}");
     assert!(remarks(&used).iter().all(|r| !r.contains("do nothing")));
