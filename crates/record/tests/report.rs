@@ -192,9 +192,12 @@ fn a_run_that_broke_down_leaves_a_page_and_a_table() {
     case.snapshots.iter_mut().skip(3).for_each(|s| s.arms[0][2] = [f64::NAN; 3]);
     let markup = check_well_formed(&outcome);
     assert!(markup.contains("breakdown at 3 s: rate of body link2 is NaN"));
-    assert!(markup.contains("stays open"));
+    // Of numbers that broke down there are no books: neither closed nor open.
+    assert!(markup.contains("Numbers broke down: there is no ledger"));
+    assert!(!markup.contains("stays open"));
     let table = verdict_table(&outcome);
-    assert!(table.contains("breakdown at 3 s") && table.contains("LEDGER OPEN"), "{table}");
+    assert!(table.contains("breakdown at 3 s") && table.contains("there is no ledger"), "{table}");
+    assert!(!table.contains("LEDGER OPEN") && !table.contains("ledger closes"), "{table}");
 }
 
 #[test]

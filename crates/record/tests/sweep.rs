@@ -22,6 +22,7 @@ posture = "forward_300mm"
 
 [payload.module]
 mass_kg = 200.0
+centre_of_mass_m = [0.5, 0.0, 0.0]
 uniform_box_m = [1.0, 1.0, 1.0]
 free = { seen_from = "tool" }
 
