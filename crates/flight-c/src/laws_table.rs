@@ -169,6 +169,7 @@ impl WrasseLaws {
                 attitude_bandwidth: self.attitude_bandwidth,
                 attitude_damping: self.attitude_damping,
             },
+            position_driven: [false; WRASSE_JOINTS],
             limits: self
                 .effort_limit
                 .map(|limit| JointLimits { effort: effort(limit), ..JointLimits::default() }),

@@ -46,6 +46,7 @@ fn in_rust() -> Told<f64, 20> {
             attitude_damping: 1.0,
         },
         limits: [JointLimits { effort: Some(500.0), ..JointLimits::default() }; 20],
+        position_driven: [false; 20],
     };
     let mut state = State::default();
     state.V_NB_B.angular = vec3(0.001, -0.002, 0.0005);

@@ -32,6 +32,8 @@ pub struct Setup<T, const J: usize> {
     pub tuning: Tuning<T>,
     /// Limits of the joints.
     pub limits: [JointLimits<T>; J],
+    /// Joints whose drives follow their set-points whatever it takes: no loop is closed over them here.
+    pub position_driven: [bool; J],
 }
 
 impl<const J: usize> Setup<f64, J> {
@@ -62,6 +64,7 @@ impl<const J: usize> Setup<f64, J> {
                 attitude_bandwidth: c(tuning.attitude_bandwidth),
                 attitude_damping: c(tuning.attitude_damping),
             },
+            position_driven: self.position_driven,
             limits: self.limits.map(|l| JointLimits {
                 travel: l.travel.map(|(lower, upper)| (c(lower), c(upper))),
                 rate: l.rate.map(c),

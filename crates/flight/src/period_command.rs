@@ -106,7 +106,7 @@ pub(crate) fn told<T: Real, const J: usize>(
         Middle::new(robot, tuning.period, sensed, now, next);
     let mut effort = computed_torque(robot, law, tuning, &ahead, &middle, &acceleration);
     let coupling = CouplingInertia::new(robot, &ahead.q);
-    let feedback_B = coupling.reaction(&joint_feedback(robot, tuning, &ahead, &middle));
+    let feedback_B = coupling.reaction(&driven_feedback(robot, setup, &ahead, &middle));
     // What holds the base against the joints as they are asked to move.
     let mut holding_B = reaction_B + feedback_B;
     let fed_forward_B = match setup.base.feedforward {
@@ -150,6 +150,23 @@ pub(crate) fn told<T: Real, const J: usize>(
         coupling,
     }
     .within_limits(robot, setup)
+}
+
+/// Acceleration that the loops of the joints ask for, where torques drive them (rad/s², m/s²).
+#[inline(always)]
+fn driven_feedback<T: Real, const J: usize>(
+    robot: &Robot<T, J>,
+    setup: &Setup<T, J>,
+    sensed: &State<T, J>,
+    now: &[SetPoint<T>; J],
+) -> [T; J] {
+    let mut back = joint_feedback(robot, &setup.tuning, sensed, now);
+    for j in robot.joints() {
+        if setup.position_driven[j] {
+            back[j] = T::zero();
+        }
+    }
+    back
 }
 
 /// Torques of the joints and wrench on the base that stand against a push at the tool.

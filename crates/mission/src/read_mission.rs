@@ -167,13 +167,14 @@ fn read_case(
     let fitted = (turning == Turning::Fitted).then_some(&equipment);
     let (base_control, navigation) =
         (base_control(r, &file, turning, fitted), navigation(r, &file, sensors.as_ref()));
-    let setup = setup(r, &file, &base_control, &navigation);
+    let mut setup = setup(r, &file, &base_control, &navigation);
     let (failures, wrenches) = (failures(r, &file, &equipment), applied_wrenches(r, &file));
     let payloads = payloads(r, &file, &start);
     let base = base_attitude(r, &file, &start);
     let phases = phases(r, &file, &payloads);
     let (quantities, requirements) = requirements(r, &file);
     let torque = torque_joints(r, &file);
+    setup.position_driven = torque.map(|torque| !torque);
     let output_rate = output_rate(r, &file);
     let stepper = stepper(r, &file);
     let (modulation, period) =

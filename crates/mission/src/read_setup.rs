@@ -262,6 +262,7 @@ pub(crate) fn setup(
         },
         tuning: tuning(r, c),
         limits,
+        position_driven: [false; JOINTS],
     }
 }
 

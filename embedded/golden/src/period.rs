@@ -88,6 +88,7 @@ fn setup<T: Real, const J: usize>(law: ArmLaw, tool: Frame<T>) -> Setup<T, J> {
             attitude_damping: c(1.0),
         },
         limits: [JointLimits { effort: Some(c(500.0)), ..JointLimits::default() }; J],
+        position_driven: [false; J],
     }
 }
 

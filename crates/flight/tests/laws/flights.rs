@@ -65,6 +65,7 @@ pub(crate) fn setup<T: Scalar>(law: ArmLaw, measurement: Measurement) -> Setup<T
             attitude_damping: c(1.0),
         },
         limits: [JointLimits::default(); 7],
+        position_driven: [false; 7],
     }
 }
 

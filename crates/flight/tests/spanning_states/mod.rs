@@ -96,6 +96,7 @@ pub(crate) fn setup<const J: usize>(law: ArmLaw, tool: Frame<f64>) -> Setup<f64,
             attitude_damping: 1.0,
         },
         limits: [JointLimits { effort: Some(500.0), ..JointLimits::default() }; J],
+        position_driven: [false; J],
     }
 }
 
