@@ -48,6 +48,15 @@ impl<T> Actuation<T> {
             Self::None | Self::Ideal(_) => None,
         }
     }
+
+    /// Whether a torque is given in the period in which it is wanted. Thrusters alone give pulses, and
+    /// those when the lag of their modulation lets them.
+    pub(crate) fn answers_at_once(&self) -> bool {
+        self.steering().is_none_or(|steering| {
+            let actuators = &steering.actuators;
+            !actuators.wheels.is_empty() || !actuators.gyros.is_empty()
+        })
+    }
 }
 
 impl<T: Real> BaseControlSetup<T> {

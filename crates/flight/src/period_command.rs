@@ -56,6 +56,9 @@ impl<T: Real, const J: usize> Told<T, J> {
     ///
     /// With `[I N; Nᵀ H̄] [ẇ; q̈] = [T; τ]` a torque on the base that is short by `ΔT` turns it by
     /// `-I⁻¹ ΔT`, and the joints stay on their way if their torques change by `-Nᵀ I⁻¹ ΔT`.
+    ///
+    /// The drives give as much of that change as the arm's own motion leaves them: a pulse of strong
+    /// thrusters that all torques were scaled down for would throw the arm off its way.
     #[inline(always)]
     #[must_use]
     pub(crate) fn without_base_torque(
@@ -65,12 +68,22 @@ impl<T: Real, const J: usize> Told<T, J> {
         lack_B: Vec3<T>,
     ) -> Self {
         let change = self.coupling.effort(self.M_B.central().solve(lack_B));
+        let mut share = T::one();
         for j in robot.joints() {
             self.effort_asked[j] -= change[j];
-            self.effort[j] -= change[j];
+            if let Some(limit) = setup.limits[j].effort {
+                let (falls, asked) = (T::zero().lt(change[j]), change[j].abs());
+                let left = T::select(falls, limit + self.effort[j], limit - self.effort[j]);
+                let part = T::select(left.lt(asked), left.max(T::zero()) / asked, T::one());
+                share = share.min(part);
+            }
         }
-        let share = share_within_limits(robot, setup, &self.effort);
-        self.effort = self.effort.map(|tau| tau * share);
+        for j in robot.joints() {
+            self.effort[j] -= change[j] * share;
+            if let Some(limit) = setup.limits[j].effort {
+                self.effort[j] = self.effort[j].clamp_to(limit);
+            }
+        }
         self
     }
 
@@ -110,6 +123,8 @@ pub(crate) fn told<T: Real, const J: usize>(
     // What holds the base against the joints as they are asked to move.
     let mut holding_B = reaction_B + feedback_B;
     let fed_forward_B = match setup.base.feedforward {
+        // Pulses that come late for the joints' feedback would feed it. The joints do without.
+        Feedforward::Exact if !setup.base.actuation.answers_at_once() => reaction_B,
         Feedforward::Exact => holding_B,
         as_printed => feedforward_torque(robot, as_printed, &middle),
     };

@@ -1,6 +1,10 @@
 //! Every shipped mission is flown, and ends as it says it does.
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
+#[path = "figures/mod.rs"]
+mod figures;
+
+use figures::Page;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
@@ -235,53 +239,90 @@ fn a_mission_flown_twice_gives_the_same_bits() {
     }
 }
 
-/// Rows of the tables in the book's page, as cells.
-fn rows_of_the_book() -> Vec<Vec<String>> {
-    let page = missions_folder().join("../book/src/validation/miss_distance.md");
-    let text = std::fs::read_to_string(page).expect("the page is there");
-    let rows = text.lines().filter(|line| line.starts_with("| "));
-    rows.map(|row| row.trim_matches('|').split('|').map(|cell| cell.trim().into()).collect())
-        .collect()
-}
-
-/// The page prints two digits; half of the last one is its rounding.
-#[track_caller]
-fn same(printed: &str, found: f64, digits: i32, row: &[String]) {
-    let printed: f64 = printed.parse().unwrap_or_else(|_| panic!("{printed} in {row:?}"));
-    let rounding = 0.51 * 10f64.powi(-digits);
-    assert!((printed - found).abs() <= rounding, "{row:?}: found {found}");
+/// Errors of the tool along and across (mm), and turn of the base (deg), at the end.
+fn missed(case: &CaseOutcome) -> [f64; 3] {
+    let [along, across] = ["along_track", "lateral"]
+        .map(|way| metric(case, &format!("tool.{way}_error.final")) * 1e3)
+        // What is printed as zero has no sign.
+        .map(|error| if error.abs() < 5e-3 { 0.0 } else { error });
+    [along, across, metric(case, "base.rotation.final").to_degrees()]
 }
 
 #[test]
 fn the_book_tells_what_the_missions_find() {
-    let mut compared = 0;
-    for row in rows_of_the_book() {
-        let labels: Vec<&str> = row.iter().map(String::as_str).collect();
-        match labels[..] {
-            [a, b, c, along, across, turned] if a.ends_with("ways") || a.ends_with("ward") => {
-                let case = case("miss-distance", &[a, b, c]);
-                if let End::Infeasible { time_s, .. } = case.end {
-                    assert!(turned.contains(&format!("way ends at {time_s:.2} s")), "{row:?}");
-                } else {
-                    same(along, metric(case, "tool.along_track_error.final") * 1e3, 2, &row);
-                    same(across, metric(case, "tool.lateral_error.final") * 1e3, 2, &row);
-                    same(turned, metric(case, "base.rotation.final").to_degrees(), 2, &row);
-                }
+    let mut page = Page::open("book/src/validation/miss_distance.md");
+    for case in &COMPARISONS["miss-distance"].cases {
+        let labels: Vec<_> = case.labels.iter().map(|(_, row)| row.as_str()).collect();
+        let row = format!("| {} |", labels.join(" | "));
+        if let End::Infeasible { time_s, .. } = case.end {
+            page.says(&format!("{row} – | – | way ends at {{}} s,"), &[time_s]);
+        } else {
+            let found = missed(case);
+            page.says(&format!("{row} {{}} | {{}} | {{}} |"), &found);
+            if labels[1].starts_with('3') || labels[1].starts_with('5') {
+                let off = metric(case, "tool.position_error.final");
+                assert!(off < 1e-8, "within 1e-5 mm: {off} m");
             }
-            [truth @ ("floating" | "attitude held"), law, travelled, share] => {
-                let found = metric(case("overshoot", &[truth, law]), "joint.joint2.travel.final");
-                same(travelled, found.to_degrees(), 2, &row);
-                same(share, found.to_degrees() / 20.0, 3, &row);
-            }
-            [feedback @ ("none" | "0.3 rad/s"), fed, most, last, off] => {
-                let case = case("feedforward", &[feedback, fed]);
-                same(most, metric(case, "base.rotation.max").to_degrees(), 4, &row);
-                same(last, metric(case, "base.rotation.final").to_degrees(), 4, &row);
-                same(off, metric(case, "tool.position_error.final") * 1e3, 2, &row);
-            }
-            _ => continue,
         }
-        compared += 1;
     }
-    assert_eq!(compared, 45 + 6 + 8);
+    let overshoot = |truth: &str, law: &str| {
+        metric(case("overshoot", &[truth, law]), "joint.joint2.travel.final").to_degrees()
+    };
+    for truth in ["floating", "attitude held"] {
+        for law in ["terrestrial", "attitude-held", "free-floating"] {
+            let travelled = overshoot(truth, law);
+            let row = format!("| {truth} | {law} | {{}} | {{}} |");
+            page.says(&row, &[travelled, travelled / 20.0]);
+        }
+    }
+    for case in &COMPARISONS["feedforward"].cases {
+        let labels: Vec<_> = case.labels.iter().map(|(_, row)| row.as_str()).collect();
+        let turned = ["max", "final"]
+            .map(|of| metric(case, &format!("base.rotation.{of}")).to_degrees());
+        let off = metric(case, "tool.position_error.final") * 1e3;
+        let row = format!("| {} | {{}} | {{}} | {{}} |", labels.join(" | "));
+        page.says(&row, &[turned[0], turned[1], off]);
+    }
+    page.holds();
+
+    let mut page = Page::open("book/src/paper_equation_by_equation.md");
+    for (row, fed) in [
+        ("exact", "exact"),
+        ("(3), `p*_cm` of arm and load", "as printed, arm c.m."),
+        ("nothing", "nothing"),
+        ("(3), `p*_cm` of the system", "as printed, system c.m."),
+    ] {
+        let [free, kept] = ["none", "0.3 rad/s"].map(|f| case("feedforward", &[f, fed]));
+        let left = metric(free, "base.rotation.final").to_degrees();
+        let off = metric(free, "tool.position_error.final") * 1e3;
+        let largest = metric(kept, "base.rotation.max").to_degrees();
+        page.says(&format!("| {row} | {{}}° | {{}} mm | {{}}° |"), &[left, off, largest]);
+    }
+    let short = ["none", "200 kg"]
+        .map(|load| -missed(case("miss-distance", &["1 m sideways", "1 terrestrial, held", load]))[0]);
+    page.says(
+        "1 m sideways with the attitude held by {} mm unladen and {} mm with 200 kg",
+        &short,
+    );
+    page.says("for a single joint: {}° instead of 20°", &[overshoot("floating", "terrestrial")]);
+    page.holds();
+}
+
+#[test]
+fn the_guide_tells_what_each_feedforward_leaves_of_the_first_run() {
+    let mut page = Page::open("book/src/guide/first_run.md");
+    let file = missions_folder().join("atlas-reach.toml");
+    let text = std::fs::read_to_string(&file).expect("the mission file is there");
+    for fed in ["exact", "as-printed", "none", "as-printed-system-cm"] {
+        let (exact, other) = ("feedforward = \"exact\"", format!("feedforward = {fed:?}"));
+        assert!(text.contains(exact));
+        let mission = read_mission(&file, text.replace(exact, &other)).expect("it is a mission");
+        let outcome = run(&mission, RunOptions::default(), &mut |_| {});
+        let flown = &outcome.cases[0];
+        let turned = metric(flown, "base.rotation.max").to_degrees();
+        let off = metric(flown, "tool.position_error.max") * 1e3;
+        page.says(&format!("| `{fed}` | {{}} | {{}} |"), &[turned, off]);
+    }
+    page.leaves_nothing_open("| `feedforward` |", "Read one way");
+    page.holds();
 }

@@ -1,6 +1,10 @@
 //! The study of section 4: demands against the hand, verdicts against the envelopes.
 
-use std::path::{Path, PathBuf};
+#[path = "../../mission/tests/figures/mod.rs"]
+mod figures;
+
+use figures::Page;
+use std::path::PathBuf;
 use std::sync::OnceLock;
 use wrasse_study::{Answer, SetKind, SetVerdict, StudyOutcome, TaskOutcome, read_study, size};
 
@@ -12,14 +16,12 @@ fn text() -> String {
     std::fs::read_to_string(path()).expect("the study lies in studies/")
 }
 
-/// The study without what takes long: the tasks that are flown with every set, but for one row.
-fn shortened(keep: Option<&str>) -> String {
+/// The study, of which only these tasks are flown with every set.
+fn closed_loop(named: &[&str]) -> String {
     let text = text();
     let (before, rest) = text.split_once("closed_loop = [").expect("a list of flown tasks");
     let (_, after) = rest.split_once(']').expect("its end");
-    let named = keep.map_or(String::new(), |name| format!("{name:?}"));
-    let closed = format!("{before}closed_loop = [{named}]{after}");
-    without_rows(&closed, |name| name.starts_with("flown") && Some(name) != keep)
+    format!("{before}closed_loop = {named:?}{after}")
 }
 
 /// A file without some rows of its axes. What follows a row on the next axis stays.
@@ -44,10 +46,20 @@ fn sized(text: &str, threads: usize) -> StudyOutcome {
     size(&study, threads, &mut |_| {})
 }
 
-/// What the envelopes say, flown once for all tests.
+/// What the envelopes say of all tasks, flown once for all tests.
 fn judged() -> &'static StudyOutcome {
     static OUTCOME: OnceLock<StudyOutcome> = OnceLock::new();
-    OUTCOME.get_or_init(|| sized(&shortened(None), 2))
+    OUTCOME.get_or_init(|| sized(&closed_loop(&[]), 2))
+}
+
+/// What is flown with every set, from the offset mount.
+fn flown() -> &'static StudyOutcome {
+    static OUTCOME: OnceLock<StudyOutcome> = OnceLock::new();
+    OUTCOME.get_or_init(|| {
+        let envelope = |name: &str| name.contains(", ramp") || name.starts_with("20");
+        let drop = |name: &str| name == "centred" || envelope(name) && !name.starts_with("flown");
+        sized(&without_rows(&text(), drop), 2)
+    })
 }
 
 fn task<'a>(outcome: &'a StudyOutcome, name: &str) -> &'a TaskOutcome {
@@ -66,8 +78,8 @@ fn verdict<'a>(task: &'a TaskOutcome, set: &str) -> &'a SetVerdict {
 fn each_demand_agrees_with_its_hand_check() {
     let outcome = judged();
     assert!(outcome.closes);
-    assert_eq!(outcome.tasks.len(), 30);
-    for task in &outcome.tasks {
+    assert_eq!(outcome.tasks.len(), 42);
+    for task in outcome.tasks.iter().filter(|task| !task.name.contains("flown")) {
         let hand = task.by_hand.as_ref().unwrap_or_else(|| panic!("{} by hand", task.name));
         let off = |found: f64, hand: f64| (found / hand - 1.0).abs();
         let (torque, momentum) =
@@ -129,23 +141,39 @@ fn torque_momentum_and_duration_each_decide() {
     assert!(holds.tasks.contains(&moving.name) && !holds.tasks.contains(&axial.name));
 }
 
-/// One flight with every set: what the envelopes promise, the tool confirms.
+/// What the envelopes promise, the tool confirms.
 #[test]
 fn sets_that_suffice_keep_the_tool_and_sets_that_do_not_lose_it() {
-    let text = shortened(Some("flown: 200 N for 1 s"));
-    let text = without_rows(&text, |name| name.contains(" kg, ramp") || name == "centred");
-    let outcome = sized(&text, 2);
-    let flown = task(&outcome, "offset, flown: 200 N for 1 s");
-    let error = |set: &str| verdict(flown, set).flown.as_ref().unwrap().tool_error_mm;
-    // Measured 0.68, 9.8, 48, 744 mm.
+    let outcome = flown();
+    let pushed = task(outcome, "offset, flown: 200 N for 1 s");
+    let error = |set: &str| verdict(pushed, set).flown.as_ref().unwrap().tool_error_mm;
+    // Measured 0.92, 9.2, 48, 744 mm.
     assert!(error("ideal") < 1.0 && error("4 gyros 250") < 20.0);
     assert!(error("4 gyros 75") > 20.0 && error("4 wheels 0.2") > 500.0);
-    assert_eq!(verdict(flown, "4 gyros 250").suffices, Answer::Yes);
-    assert_eq!(verdict(flown, "4 wheels 0.2").suffices, Answer::No);
+    assert_eq!(verdict(pushed, "4 gyros 250").suffices, Answer::Yes);
+    assert_eq!(verdict(pushed, "4 wheels 0.2").suffices, Answer::No);
+    for task in &outcome.tasks {
+        for verdict in &task.verdicts {
+            let flown = verdict.flown.as_ref().unwrap();
+            assert!(flown.closes, "{} with {}: {flown:?}", task.name, verdict.set);
+        }
+    }
     assert!(outcome.closes);
     let kinds: Vec<_> = outcome.sets.iter().map(|set| set.kind).collect();
     assert_eq!(kinds[0], SetKind::Ideal);
     assert_eq!(kinds.iter().filter(|k| **k == SetKind::Gyros).count(), 5);
+}
+
+/// Drives of 60 N·m that were scaled down for every pulse of 200 N lost the arm: 204 mm, and 2 m with the
+/// centred mount, where the base tumbled. Measured: 1.8 to 2.6 mm, 0.6 to 1.2 deg.
+#[test]
+fn strong_thrusters_shake_the_arm_and_do_not_throw_it() {
+    for task in flown().tasks.iter().filter(|task| task.name.contains("500 kg")) {
+        let flown = verdict(task, "24 thrusters 200").flown.as_ref().unwrap();
+        let (tool, base) = (flown.tool_error_mm, flown.attitude_error_deg);
+        println!("{}: {tool} mm, {base} deg", task.name);
+        assert!(tool < 5.0 && base < 2.0 && flown.closes, "{}: {tool} mm, {base} deg", task.name);
+    }
 }
 
 /// The row of a task in the book: demand, then a word for each set.
@@ -157,16 +185,121 @@ fn row(task: &TaskOutcome) -> String {
         (Answer::No, Answer::No, _) => "no T",
         (Answer::No, ..) => "no H",
     };
-    let (torque, momentum) = (task.peak_torque_nm, task.peak_momentum_nms);
     let words: Vec<_> = task.verdicts[1..].iter().map(word).collect();
-    format!("| {} | {torque:.1} | {momentum:.1} | {} |", task.name, words.join(" | "))
+    format!("| {} | {{}} | {{}} | {} |", task.name, words.join(" | "))
 }
+
+/// The number before this word in what a study finds.
+fn number_in(outcome: &StudyOutcome, about: &str, unit: &str) -> f64 {
+    let finding = outcome.findings.iter().find(|finding| finding.about == about);
+    let text = &finding.unwrap_or_else(|| panic!("nothing about {about}")).text;
+    let words: Vec<_> = text.split_whitespace().collect();
+    let at = words.iter().position(|word| *word == unit).expect("its unit");
+    words[at - 1].parse().expect("a number")
+}
+
+fn tasks_about(outcome: &StudyOutcome, about: &str) -> f64 {
+    let finding = outcome.findings.iter().find(|finding| finding.about == about);
+    f64::from(u32::try_from(finding.map_or(0, |finding| finding.tasks.len())).expect("a few"))
+}
+
+const PAGE: &str = "book/src/validation/section_4.md";
 
 #[test]
 fn the_book_tells_what_the_study_finds() {
-    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../book/src/validation/section_4.md");
-    let book = std::fs::read_to_string(page).expect("the page lies in the book");
-    let outcome = judged();
-    let missing: Vec<_> = outcome.tasks.iter().map(row).filter(|r| !book.contains(r)).collect();
-    assert!(missing.is_empty(), "the book does not say:\n{}", missing.join("\n"));
+    let (outcome, mut page) = (judged(), Page::open(PAGE));
+    for task in outcome.tasks.iter().filter(|task| !task.name.contains("flown")) {
+        page.says(&row(task), &[task.peak_torque_nm, task.peak_momentum_nms]);
+    }
+    page.leaves_nothing_open("| offset, 0 kg, ramp 0.5 s", "Each demand");
+
+    let hand = |name: &str| task(outcome, name).by_hand.as_ref().unwrap();
+    let moved = hand("offset, 500 kg, ramp 1.25 s");
+    assert!(moved.how.contains("reduced mass 378 kg at a lever of 2.06 m"), "{}", moved.how);
+    let load = 378.2 * 2.06 * 0.1;
+    let words = "a reduced mass of 378 kg at a lever of 2.06 m and 0.1 m/s has {} N·m·s, the arm \
+                 adds {}, and a ramp of 1.25 s whose jerk changes sign in the middle makes \
+                 2 · {}/1.25 = {} N·m";
+    page.says(words, &[load, moved.momentum - load, moved.momentum, moved.torque]);
+    let pushed = task(outcome, "offset, 200 N lateral");
+    let every_second = pushed.gathered_nm.unwrap();
+    let words = "For 200 N sideways: a lever of {} m, {} N·m, and {} N·m·s every second";
+    page.says(words, &[every_second / 200.0, pushed.peak_torque_nm, every_second]);
+    page.holds();
+}
+
+/// The paragraphs below the first table. Masses, forces and sets are those of the study.
+#[test]
+fn the_book_says_where_the_claim_holds_as_the_study_does() {
+    let (outcome, mut page) = (judged(), Page::open(PAGE));
+    let all = f64::from(u32::try_from(outcome.tasks.len()).expect("a few"));
+    let needed = "gyros are needed";
+    page.says(
+        "In {} of {} tasks a set of gyros suffices and no set of wheels does. Thrusters suffice in all \
+         of these too, for up to {} g",
+        &[tasks_about(outcome, needed), all, number_in(outcome, needed, "g")],
+    );
+    let quick = task(outcome, "offset, 500 kg, ramp 1.25 s");
+    let wheels = verdict(quick, "4 wheels 0.2");
+    assert_eq!(wheels.momentum, Answer::Yes);
+    let words = "four wheels of 100 N·m·s could hold what 500 kg ask for in a ramp of 1.25 s, and lack \
+                 the torque by a factor of {}";
+    page.says(words, &[wheels.torque_load.plain.unwrap()]);
+    let words = "500 kg with a ramp of 1.25 s would have to go {} times more slowly for wheels of \
+                 0.2 N·m. Unladen and with a ramp of 5 s, wheels of 1 N·m suffice";
+    page.says(words, &[wheels.slower.plain.unwrap()]);
+    let axial = task(outcome, "centred, 200 N axial");
+    let full = verdict(axial, "4 wheels 0.2").saturates_s.plain.unwrap();
+    let lever = axial.gathered_nm.unwrap() / 200.0;
+    let words = "The same 200 N along the arm of a centred mount ask for {} N·m, because their line \
+                 passes {} mm beside the centre of mass: wheels of 0.2 N·m suffice, for {} s";
+    page.says(words, &[axial.peak_torque_nm, lever * 1e3, full]);
+    let pushed = task(outcome, "offset, 200 N lateral");
+    let full = |set: &str| verdict(pushed, set).saturates_s.best.unwrap();
+    let words = "200 N fill four gyros of 75 N·m·s in {} s and four of 250 N·m·s in {} s";
+    page.says(words, &[full("4 gyros 75"), full("4 gyros 250")]);
+    let words = "Four gyros of 75 N·m·s cannot give the {} N·m at all. In {} of {} tasks";
+    page.says(words, &[pushed.peak_torque_nm, tasks_about(outcome, "not even gyros"), all]);
+    for axes in ["axial", "lateral"] {
+        let couple = task(outcome, &format!("offset, 20 N·m {axes}"));
+        for set in ["4 gyros 40", "4 gyros 75"] {
+            assert_eq!(verdict(couple, set).suffices, Answer::WithSteering);
+        }
+    }
+    page.gives("20 N·m for 5 s across the pyramid's axis are within the outer surface of four gyros of 40 or 75 N·m·s");
+    let away = number_in(outcome, "no torque reacts a force", "mm") * 1e-3;
+    let fuel = verdict(pushed, "24 thrusters 200").fuel_in_place_kg.unwrap();
+    let words = "200 N push the free vehicle {} m away in 5 s. Only thrusters or a grapple react a \
+                 force. Thrusters of 200 N hold attitude and place, for {} kg of propellant in 5 s";
+    page.says(words, &[away, fuel]);
+    page.leaves_nothing_open("## Where the claim holds", "## What the tool says");
+    page.holds();
+}
+
+#[test]
+fn the_book_tells_the_errors_of_the_tool_in_closed_loop() {
+    let (outcome, mut page) = (flown(), Page::open(PAGE));
+    let error = |task: &str, set: &str| {
+        let task = self::task(outcome, &format!("offset, flown: {task}"));
+        verdict(task, set).flown.as_ref().unwrap().tool_error_mm
+    };
+    for task in &outcome.tasks {
+        let name = task.name.strip_prefix("offset, flown: ").expect("only these are left");
+        let sets = task.verdicts.iter();
+        let errors = sets.map(|verdict| verdict.flown.as_ref().unwrap().tool_error_mm);
+        let found: Vec<f64> = [task.duration_s].into_iter().chain(errors).collect();
+        page.says(&format!("| {name} |{}", " {} |".repeat(found.len())), &found);
+    }
+    // The load recoils with the vehicle: 1500 kg and an arm of 56 kg bear it.
+    page.says("the arm goes {} m against the recoiling base", &[2056.0 / 1556.0]);
+    page.gives("500 kg go 1 m in inertial space");
+    page.gives("a proportional and derivative law of 1 rad/s");
+    let push = "200 N for 1 s";
+    let words = "The push of 200 N for 1 s tells apart what the envelope does not: gyros of 125 N·m·s \
+                 suffice by torque and momentum if they are steered well, and the tool is {} mm off for \
+                 a while, with gimbals at their rate limit; 250 N·m·s bring that down to {} mm";
+    page.says(words, &[error(push, "4 gyros 125"), error(push, "4 gyros 250")]);
+    page.gives("| task | s | ideal | wheels 0.1 | wheels 0.2 | wheels 1 | gyros 15 | gyros 40 | gyros 75 | gyros 125 | gyros 250 | thr. 22 | thr. 200 |");
+    page.leaves_nothing_open("## What the tool says", "");
+    page.holds();
 }

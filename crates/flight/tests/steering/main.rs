@@ -10,6 +10,8 @@ mod arms;
 mod random_robot;
 
 mod bench;
+#[path = "../../../mission/tests/figures/mod.rs"]
+mod figures;
 mod gyros;
 mod owed;
 mod posture_relief;
