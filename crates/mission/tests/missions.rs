@@ -277,8 +277,8 @@ fn the_book_tells_what_the_missions_find() {
     }
     for case in &COMPARISONS["feedforward"].cases {
         let labels: Vec<_> = case.labels.iter().map(|(_, row)| row.as_str()).collect();
-        let turned = ["max", "final"]
-            .map(|of| metric(case, &format!("base.rotation.{of}")).to_degrees());
+        let turned =
+            ["max", "final"].map(|of| metric(case, &format!("base.rotation.{of}")).to_degrees());
         let off = metric(case, "tool.position_error.final") * 1e3;
         let row = format!("| {} | {{}} | {{}} | {{}} |", labels.join(" | "));
         page.says(&row, &[turned[0], turned[1], off]);
@@ -298,12 +298,10 @@ fn the_book_tells_what_the_missions_find() {
         let largest = metric(kept, "base.rotation.max").to_degrees();
         page.says(&format!("| {row} | {{}}° | {{}} mm | {{}}° |"), &[left, off, largest]);
     }
-    let short = ["none", "200 kg"]
-        .map(|load| -missed(case("miss-distance", &["1 m sideways", "1 terrestrial, held", load]))[0]);
-    page.says(
-        "1 m sideways with the attitude held by {} mm unladen and {} mm with 200 kg",
-        &short,
-    );
+    let short = ["none", "200 kg"].map(|load| {
+        -missed(case("miss-distance", &["1 m sideways", "1 terrestrial, held", load]))[0]
+    });
+    page.says("1 m sideways with the attitude held by {} mm unladen and {} mm with 200 kg", &short);
     page.says("for a single joint: {}° instead of 20°", &[overshoot("floating", "terrestrial")]);
     page.holds();
 }

@@ -21,7 +21,8 @@ fn at_the_end(case: &CaseOutcome, per_metre: f64) -> f64 {
 /// Seconds in all of what is summed up with these words.
 fn seconds_of(case: &CaseOutcome, words: &str) -> f64 {
     let sums = case.events.iter().map(|e| e.text.as_str());
-    let sum = sums.filter(|text| text.contains(words)).find_map(|text| text.strip_prefix("in all "));
+    let sum =
+        sums.filter(|text| text.contains(words)).find_map(|text| text.strip_prefix("in all "));
     let sum = sum.unwrap_or_else(|| panic!("nobody sums up `{words}`"));
     sum.split(' ').next().and_then(|number| number.parse().ok()).expect("a number")
 }
@@ -54,10 +55,7 @@ fn the_guide_tells_what_the_missions_of_base_control_do() {
         page.gives(shows);
     }
     let wheels = case("wheels", "");
-    page.says(
-        "| base turned by {} deg, tool off by {} nm |",
-        &[turned(wheels), off(wheels, 1e9)],
-    );
+    page.says("| base turned by {} deg, tool off by {} nm |", &[turned(wheels), off(wheels, 1e9)]);
     let gyros = case("gyros", "");
     let (stored, rates) =
         (metric(gyros, "attitude.momentum.max"), metric(gyros, "gyros.rate_use.max") * 100.0);

@@ -30,7 +30,8 @@ impl Page {
         let pieces: Vec<_> = words.split("{}").collect();
         assert_eq!(pieces.len(), found.len() + 1, "a number for each place in {words:?}");
         let places = self.text.match_indices(pieces[0]).map(|(at, _)| at);
-        let Some(numbers) = places.into_iter().find_map(|at| numbers(&self.text, at, &pieces)) else {
+        let Some(numbers) = places.into_iter().find_map(|at| numbers(&self.text, at, &pieces))
+        else {
             self.wrong.push(format!("the page does not say: {words}"));
             return;
         };
