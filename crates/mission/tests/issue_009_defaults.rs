@@ -115,8 +115,8 @@ fn shown(default: &serde_json::Value) -> String {
 
 #[test]
 fn fitted_units_that_do_nothing_are_remarked_on() {
-    let wheels = "[actuators]\nname = \"w\"\n[[actuators.wheel_array]]\nname = \"w\"\n\
-                  model = \"honeywell-hr16-100\"\narrangement = \"pyramid\"\nskew_deg = 53.13\n";
+    let units = "[actuators]\nname = \"g\"\n[[actuators.gyro_array]]\nname = \"g\"\n\
+                 model = \"airbus-cmg-15-45s\"\narrangement = \"pyramid\"\nskew_deg = 53.13\n";
     let remarks = |text: &str| -> Vec<String> {
         read(&SHORT.replace("WORLD", text)).remarks.iter().map(|c| c.message.clone()).collect()
     };
@@ -124,13 +124,13 @@ fn fitted_units_that_do_nothing_are_remarked_on() {
         let all = remarks(text);
         assert!(all.iter().any(|r| r.contains(words)), "{all:?}");
     };
-    says(wheels, "fitted and do nothing: the base floats, by default");
-    let held = format!("[world]\nbase_attitude = \"held\"\n{wheels}");
+    says(units, "fitted and do nothing: the base floats, by default");
+    let held = format!("[world]\nbase_attitude = \"held\"\n{units}");
     says(&held, "fitted and do nothing: the base is held from outside;");
     let unlimited = format!(
-        "[world]\nbase_attitude = \"controlled\"\n[control]\nactuators = \"unlimited\"\n{wheels}"
+        "[world]\nbase_attitude = \"controlled\"\n[control]\nactuators = \"unlimited\"\n{units}"
     );
     says(&unlimited, "an ideal actuator turns the base");
-    let used = format!("[world]\nbase_attitude = \"controlled\"\n{wheels}");
+    let used = format!("[world]\nbase_attitude = \"controlled\"\n{units}");
     assert!(remarks(&used).iter().all(|r| !r.contains("do nothing")));
 }
