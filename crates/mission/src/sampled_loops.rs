@@ -297,6 +297,6 @@ mod tests {
             let matrix = nalgebra::Matrix3::from_rows(&[x, p * -g, p * (g * g)]);
             matrix.complex_eigenvalues().iter().map(|e| e.norm()).fold(0.0, f64::max)
         };
-        assert!(at(0.99 * TOOL_LIMIT) < 1.0 && at(1.01 * TOOL_LIMIT) > 1.0);
+        assert!(at(0.9999 * TOOL_LIMIT) < 1.0 && at(1.0001 * TOOL_LIMIT) > 1.0);
     }
 }

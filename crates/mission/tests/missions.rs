@@ -306,6 +306,59 @@ fn the_book_tells_what_the_missions_find() {
     page.holds();
 }
 
+/// A text without the rows of its comparisons that have other names. What follows a row on the next axis
+/// stays.
+fn with_rows(text: &str, named: &[&str]) -> String {
+    let mut blocks = text.split("[[compare.row]]\n");
+    let mut kept = blocks.next().expect("a beginning").to_owned();
+    for block in blocks {
+        let name = block.split('"').nth(1).expect("a row has a name");
+        let (row, next) = block.split_once("[[compare]]").unwrap_or((block, ""));
+        if named.contains(&name) {
+            kept += &format!("[[compare.row]]\n{row}");
+        }
+        if !next.is_empty() {
+            kept += &format!("[[compare]]{next}");
+        }
+    }
+    kept
+}
+
+#[test]
+fn the_book_tells_where_ways_end_without_limits_of_the_joint_rates() {
+    let folder = missions_folder();
+    let read = |path: &str| std::fs::read_to_string(folder.join(path)).expect("it is shipped");
+    let vehicle = read("../vehicles/atlas-class.toml");
+    let limits = |line: &&str| !line.starts_with("rate_deg_s");
+    let unlimited: Vec<_> = vehicle.lines().filter(limits).collect();
+    assert_eq!(vehicle.lines().count() - unlimited.len(), 7);
+    let own = format!("wrasse-without-rates-{}.toml", std::process::id());
+    let path = std::env::temp_dir().join(own);
+    std::fs::write(&path, unlimited.join("\n")).expect("it can be written");
+    let rows = ["1 m sideways", "3 attitude-held, held", "4 attitude-held, free"];
+    let rows = [&rows[..], &["5 free-floating, free", "200 kg", "500 kg"]].concat();
+    let text = with_rows(&read("miss-distance/laws.toml"), &rows);
+    let text = text.replace("\"atlas-class\"", &format!("{path:?}"));
+    let mission = read_mission(folder.join("miss-distance/laws.toml"), text).unwrap_or_else(|c| {
+        panic!("{}", wrasse_document::render(&c, false));
+    });
+    let outcome = run(&mission, RunOptions::default(), &mut |_| {});
+    std::fs::remove_file(&path).expect("it is there");
+    let ends: Vec<f64> = outcome
+        .cases
+        .iter()
+        .filter_map(|case| match case.end {
+            End::Infeasible { time_s, .. } => Some(time_s),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(outcome.cases.len(), 6);
+    // Laws 3 and 4 with 500 kg, law 5 with 200 kg and with 500 kg: in the order of the table.
+    let mut page = Page::open("book/src/validation/miss_distance.md");
+    page.says("the same four ways end a little later, at {}, {}, {} and {} s", &ends);
+    page.holds();
+}
+
 #[test]
 fn the_guide_tells_what_each_feedforward_leaves_of_the_first_run() {
     let mut page = Page::open("book/src/guide/first_run.md");

@@ -1,9 +1,12 @@
 //! A sweep is the same in one go or in many, by one thread or by several.
 
+#[path = "../../mission/tests/figures/mod.rs"]
+mod figures;
+
 use std::fs;
 use std::path::Path;
 use wrasse_mission::{Mission, read_mission};
-use wrasse_sweep::{OwnedFolder, Row, Sweep, SweepError, SweepOutcome};
+use wrasse_sweep::{OwnedFolder, PassRate, Row, Sweep, SweepError, SweepOutcome};
 
 /// Short, with two laws to compare, a payload that is not known, and a requirement that some fail.
 const MISSION: &str = r#"
@@ -324,4 +327,14 @@ fn the_values_flown_stand_beside_their_deviations() {
     let row = case.rows.iter().find(|row| row.sample == worst.sample).expect("it was flown");
     assert_eq!(worst.drawn[0].flown, 200.0 + row.deviations[0]);
     assert_eq!(worst.drawn[0].deviation, row.deviations[0]);
+}
+
+#[test]
+fn the_guide_says_how_many_samples_show_a_pass_rate() {
+    let sure = |of: usize| PassRate::of(of, of).sure;
+    // The fewest that reach it.
+    assert!(sure(367) < 0.99 && sure(368) >= 0.99);
+    let mut page = figures::Page::open("book/src/guide/sweeps.md");
+    page.says("All of 300 samples passing shows {}; all of 368 shows {}.", &[sure(300), sure(368)]);
+    page.holds();
 }
