@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
 
 #[path = "../../../embedded/golden/src/atlas_class.rs"]
+#[allow(clippy::unreadable_literal, reason = "a table made by a test")]
 mod atlas_class;
 
 use atlas_class::{BASE, LINKS, TOOL};
@@ -153,9 +154,12 @@ fn traces(
     Some(traces)
 }
 
+/// What makes a reading wrong.
+type Fault = Box<dyn Fn(&mut WrasseSensed)>;
+
 /// Every word of a reading wrong by a little, by much, and at its bound.
-fn wrong_readings() -> Vec<Box<dyn Fn(&mut WrasseSensed)>> {
-    let mut all: Vec<Box<dyn Fn(&mut WrasseSensed)>> = vec![];
+fn wrong_readings() -> Vec<Fault> {
+    let mut all: Vec<Fault> = vec![];
     for share in [-0.1, 1.0] {
         for k in 0..3 {
             all.push(Box::new(move |s| s.position[k] = 1e6 * share));

@@ -71,7 +71,7 @@ impl<T: Real, const J: usize> Told<T, J> {
         let mut share = T::one();
         for j in robot.joints() {
             self.effort_asked[j] -= change[j];
-            if let Some(limit) = setup.limits[j].effort {
+            if let Some(limit) = effort_limit(setup, j) {
                 let (falls, asked) = (T::zero().lt(change[j]), change[j].abs());
                 let left = T::select(falls, limit + self.effort[j], limit - self.effort[j]);
                 let part = T::select(left.lt(asked), left.max(T::zero()) / asked, T::one());
@@ -80,7 +80,7 @@ impl<T: Real, const J: usize> Told<T, J> {
         }
         for j in robot.joints() {
             self.effort[j] -= change[j] * share;
-            if let Some(limit) = setup.limits[j].effort {
+            if let Some(limit) = effort_limit(setup, j) {
                 self.effort[j] = self.effort[j].clamp_to(limit);
             }
         }
@@ -241,9 +241,16 @@ fn share_within_limits<T: Real, const J: usize>(
 ) -> T {
     let mut share = T::one();
     for j in robot.joints() {
-        if let Some(limit) = setup.limits[j].effort {
+        if let Some(limit) = effort_limit(setup, j) {
             share = share.min(limit / limit.max(effort[j].abs()));
         }
     }
     share
+}
+
+/// Largest torque or force of a drive that is told one (N·m, N); those that follow their set-points are
+/// told none.
+#[inline(always)]
+fn effort_limit<T: Real, const J: usize>(setup: &Setup<T, J>, j: usize) -> Option<T> {
+    setup.limits[j].effort.filter(|_| !setup.position_driven[j])
 }

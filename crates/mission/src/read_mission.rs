@@ -183,8 +183,8 @@ fn read_case(
     check_sampling(r, &file, &sampling);
     let nominal = Nominal::of(&vehicle, (&start, base), &payloads, &fitted_sensors);
     let dispersions = dispersions(r, &file.disperse, &nominal);
-    let mut complaints = reading.complaints;
-    let mut case = Case {
+    let complaints = reading.complaints;
+    let case = Case {
         labels,
         vehicle_name: file.vehicle.clone(),
         vehicle: Arc::new(vehicle),
@@ -210,7 +210,16 @@ fn read_case(
         snapshots: file.output.snapshots,
         as_flown: vec![],
     };
-    case.as_flown = as_flown(document, &file, &case);
+    checked_as_a_whole(document, &file, case, complaints)
+}
+
+/// What is only known of a whole case: its loops against their rate, and what is flown in the end.
+fn checked_as_a_whole(
+    document: &Document,
+    file: &MissionFile,
+    mut case: Case,
+    mut complaints: Vec<Complaint>,
+) -> Result<(Case, Vec<Complaint>), Vec<Complaint>> {
     let is_faulty = |all: &[Complaint]| all.iter().any(|c| c.severity == Severity::Error);
     // Where a number had to be made up, what follows from it is not said.
     if !is_faulty(&complaints) {
@@ -219,6 +228,7 @@ fn read_case(
     if is_faulty(&complaints) {
         return Err(complaints);
     }
+    case.as_flown = as_flown(document, file, &case);
     Ok((case, complaints))
 }
 

@@ -391,8 +391,8 @@ fn drives_and_actuators_that_saturate_stay_within_their_limits_and_say_so() {
     assert!(base.iter().all(|torque| *torque <= 236.0 * (1.0 + 1e-9)) && base[1] > 235.9);
     // Saturation has its price, and the requirement that sees it fails.
     let passed = |case: &CaseOutcome| case.verdicts.iter().map(|v| v.pass).collect::<Vec<_>>();
-    assert_eq!(passed(&weak)[0], false, "{:?}", weak.verdicts);
-    assert_eq!(passed(&strong)[1], false, "{:?}", strong.verdicts);
+    assert!(!passed(&weak)[0], "{:?}", weak.verdicts);
+    assert!(!passed(&strong)[1], "{:?}", strong.verdicts);
 }
 
 #[test]

@@ -69,7 +69,6 @@ fn clients_of_a_tenth_to_ten_times_the_servicer_fly_at_default_gains() {
             let turned = metric(&outcome, "base.rotation.max").to_degrees();
             let effort = metric(&outcome, "joints.effort_use.max");
             let off = metric(&outcome, "tool.position_error.max");
-            println!("{law} {mass} kg: {turned:e} deg, {effort:e}, {off:e} m");
             assert!(turned < 0.1 && effort < 0.05, "{law} {mass} kg: {turned} deg, {effort}");
         }
     }
