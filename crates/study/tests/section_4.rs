@@ -171,7 +171,6 @@ fn strong_thrusters_shake_the_arm_and_do_not_throw_it() {
     for task in flown().tasks.iter().filter(|task| task.name.contains("500 kg")) {
         let flown = verdict(task, "24 thrusters 200").flown.as_ref().unwrap();
         let (tool, base) = (flown.tool_error_mm, flown.attitude_error_deg);
-        println!("{}: {tool} mm, {base} deg", task.name);
         assert!(tool < 5.0 && base < 2.0 && flown.closes, "{}: {tool} mm, {base} deg", task.name);
     }
 }
