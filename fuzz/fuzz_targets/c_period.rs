@@ -111,9 +111,8 @@ fuzz_target!(|bytes: &[u8]| {
     let mut flight = WrasseFlight { memory: [0; WRASSE_FLIGHT_WORDS] };
     let (count, to) = (7, &raw mut flight);
     // SAFETY: all point to what they are; the complaint may be null.
-    let status = unsafe {
-        wrasse_flight_set_up(to, &base, links.as_ptr(), count, &tool, &laws, null_mut())
-    };
+    let status =
+        unsafe { wrasse_flight_set_up(to, &base, links.as_ptr(), count, &tool, &laws, null_mut()) };
     if status != WrasseStatus::WRASSE_OK {
         assert!(flight.memory.iter().all(|word| *word == 0));
         return;

@@ -77,6 +77,13 @@ fn the_guide_tells_what_the_missions_of_base_control_do() {
         "| base turned by {} deg; tool off by {} nm at the end |",
         &[turned(dead), at_the_end(dead, 1e9)],
     );
+    the_guide_tells_of_gyros_and_thrusters(&mut page);
+    the_guide_tells_the_rest(&mut page);
+    page.leaves_nothing_open("All fly the ATLAS-class", "In `missions/base-control/singular-gyros");
+    page.holds();
+}
+
+fn the_guide_tells_of_gyros_and_thrusters(page: &mut Page) {
     let stuck = ["is told after 0.2 s", "is never told"].map(|row| case("gimbal-stuck", row));
     page.says(
         "| told: base turned by {} deg, tool off by {} µm, {} µm at the end; never told: {} deg, {} µm, \
@@ -104,9 +111,6 @@ fn the_guide_tells_what_the_missions_of_base_control_do() {
             -pulled.ledger.linear_from_outside[0],
         ],
     );
-    the_guide_tells_the_rest(&mut page);
-    page.leaves_nothing_open("All fly the ATLAS-class", "In `missions/base-control/singular-gyros");
-    page.holds();
 }
 
 fn the_guide_tells_the_rest(page: &mut Page) {

@@ -20,8 +20,8 @@ impl Page {
     /// A page by its path in the repository.
     pub(crate) fn open(path: &str) -> Self {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(path);
-        let text =
-            std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+        let read = std::fs::read_to_string(&path);
+        let text = read.unwrap_or_else(|e| panic!("{}: {e}", path.display()));
         Self { path, text, compared: vec![], meant: vec![], wrong: vec![] }
     }
 
