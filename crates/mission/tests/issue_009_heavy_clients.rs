@@ -70,6 +70,7 @@ fn clients_of_a_tenth_to_ten_times_the_servicer_fly_at_default_gains() {
             let effort = metric(&outcome, "joints.effort_use.max");
             let off = metric(&outcome, "tool.position_error.max");
             assert!(turned < 0.1 && effort < 0.05, "{law} {mass} kg: {turned} deg, {effort}");
+            assert!(off < 1e-7, "{law} {mass} kg: {off} m");
         }
     }
 }
