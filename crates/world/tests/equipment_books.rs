@@ -221,7 +221,6 @@ fn a_held_base_keeps_the_mass_of_its_tank_and_what_its_wheels_and_gyros_hold() {
     assert_eq!((start.in_wheels, start.in_gyros), (now.in_wheels, now.in_gyros));
     assert_eq!(ledger.propellant.mass, 0.0);
     let [angular, linear, energy] = ledger.rests();
-    println!("{angular:e} {linear:e} {energy:e}");
     assert!(angular < 1e-9 && linear < 1e-12 && energy < 1e-9, "{angular:e} {linear:e} {energy:e}");
     // The heavier base gives way less.
     let shift = |world: &World<J>| world.state().X_NB.translation.norm();
