@@ -128,6 +128,10 @@ pub(crate) fn doubt_idle_units(
     equipment: &Equipment,
 ) {
     let is_controlled = file.world.base_attitude == BaseFile::Controlled;
+    // Of failing units on a held base it is said with their failures.
+    if file.world.base_attitude == BaseFile::Held && !file.failure.is_empty() {
+        return;
+    }
     if equipment.actuators.is_empty() || (is_controlled && turning == Turning::Fitted) {
         return;
     }
