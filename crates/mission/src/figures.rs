@@ -5,6 +5,13 @@ pub(crate) fn rounded(x: f64) -> f64 {
     format!("{x:.3e}").parse().unwrap_or(x)
 }
 
+/// Four figures, with an exponent where there would be a row of zeros.
+pub(crate) fn shown(x: f64) -> String {
+    let x = rounded(x);
+    let is_plain = x == 0.0 || (1e-4..1e7).contains(&x.abs()) || !x.is_finite();
+    if is_plain { format!("{x}") } else { format!("{x:e}") }
+}
+
 /// Two figures, not above.
 pub(crate) fn rounded_down(x: f64) -> f64 {
     two_figures(x, f64::floor)
@@ -27,6 +34,11 @@ fn two_figures(x: f64, whole: fn(f64) -> f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_are_shown_without_rows_of_zeros() {
+        assert_eq!([1e154, 16.5685, 2e-7, 0.0].map(shown), ["1e154", "16.57", "2e-7", "0"]);
+    }
 
     #[test]
     fn figures_of_advice_are_on_the_safe_side() {

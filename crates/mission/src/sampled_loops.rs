@@ -1,7 +1,7 @@
 //! The loops that a flight computer closes once a period, and how far each is from the bandwidth at
 //! which it would be unstable as sampled (book/src/theory/sampled_loops.md).
 
-use crate::figures::{rounded, rounded_down, rounded_up};
+use crate::figures::{rounded_down, rounded_up, shown};
 use crate::mission::Case;
 use crate::read_base::Turning;
 use nalgebra::{Cholesky, DMatrix};
@@ -52,12 +52,8 @@ impl SampledLoop {
     /// Bandwidth, rate, limit and margin in words.
     pub fn text(&self) -> String {
         let unit = if self.name == "tool" { "1/s" } else { "rad/s" };
-        let at = format!(
-            "{} {} {unit} at {} Hz",
-            self.name,
-            rounded(self.bandwidth),
-            rounded(self.rate_hz)
-        );
+        let at =
+            format!("{} {} {unit} at {} Hz", self.name, shown(self.bandwidth), shown(self.rate_hz));
         if self.limit.is_infinite() {
             return format!("{at}, stable at any rate");
         }
@@ -65,12 +61,12 @@ impl SampledLoop {
         let gain = if (self.gain - 1.0).abs() < 1e-6 {
             String::new()
         } else {
-            format!(", the plant answers {} times what is asked", rounded(self.gain))
+            format!(", the plant answers {} times what is asked", shown(self.gain))
         };
         format!(
             "{at}, limit {} {unit}{by}, margin {}{gain}",
-            rounded(self.limit),
-            rounded(self.margin())
+            shown(self.limit),
+            shown(self.margin())
         )
     }
 
