@@ -15,6 +15,9 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+/// Largest part or manifest that is read (bytes): samples of a chunk take a few hundred each.
+const LARGEST: u64 = 1 << 26;
+
 /// The samples that are done, in a folder.
 #[derive(Debug)]
 pub(crate) struct Parts<'f> {
@@ -193,6 +196,14 @@ impl<'f> Parts<'f> {
 
 /// The text of a file; what is no text counts as damaged, not as unreadable.
 fn read(path: &Path) -> io::Result<String> {
+    let found = fs::metadata(path)?;
+    // A pipe or a device would be read for ever.
+    if !found.is_file() {
+        return Err(io::Error::other("it is not a file"));
+    }
+    if found.len() > LARGEST {
+        return Err(io::Error::other(format!("it has more than {LARGEST} bytes")));
+    }
     Ok(String::from_utf8_lossy(&fs::read(path)?).into_owned())
 }
 

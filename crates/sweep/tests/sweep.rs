@@ -270,6 +270,19 @@ fn every_change_of_a_part_is_noticed_and_removing_it_flies_it_again() {
     assert_eq!(rows(&mission, 2, 1, place.path()), whole);
 }
 
+/// A pipe would be waited for without an end.
+#[cfg(unix)]
+#[test]
+fn a_part_that_is_no_file_is_told_and_not_waited_for() {
+    let (mission, place) = (mission(MISSION), folder());
+    let pipe = place.path().join("case-0-000000000-000000007.jsonl");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status().expect("mkfifo is there");
+    assert!(made.success());
+    let asked = Sweep { mission: &mission, samples: 2, seed: 11, threads: 1 };
+    let told = sweep(&asked, place.path(), &mut |_, _| {}).expect_err("no file").to_string();
+    assert!(told.contains(&pipe.display().to_string()), "{told}");
+}
+
 /// Nothing drawn; a draw of a sensor that is not used; one too small to make another number.
 #[test]
 fn a_sweep_that_draws_nothing_is_refused() {
