@@ -1,7 +1,7 @@
 //! One control period: a bounded piece of code that takes the same way whatever the numbers are.
 //!
 //! What decides (phases, planning, estimators, steering) stands outside; it says what is asked, and
-//! here it is turned into set-points and torques, for one vehicle or for many side by side.
+//! here it is turned into set-points and torques.
 
 use crate::answered_motion::{answered_motion_in, answered_twist};
 use crate::computer::Setup;

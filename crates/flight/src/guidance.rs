@@ -1,5 +1,5 @@
 //! What is asked of the arm: phases one after the other, and the path of the current one. It decides, so
-//! it takes single numbers; what it asks can be flown for many vehicles side by side.
+//! it takes single numbers.
 
 use crate::carried_rates::{CarriedRates, FADE, to_rest};
 use crate::computer::Setup;

@@ -1,4 +1,4 @@
-//! Many samples of a mission: flown side by side, kept as they are done, counted up.
+//! Many samples of a mission: flown by several threads, kept as they are done, counted up.
 //!
 //! A sample's numbers depend on the seed and its own number alone, so the results are the same bits for
 //! any number of threads, in one go or in many.
