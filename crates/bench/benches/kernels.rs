@@ -4,83 +4,80 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 use std::time::Duration;
-use wrasse_bench::{Call, DERIVATIVES, KERNELS, STATES, Subject, subject, widened};
-use wrasse_lanes::{Level, OnAnyLevel};
-use wrasse_spatial::{Baseline, Instructions, Lanes, Real, Work};
+use wrasse_bench::{BATCHES, KERNELS, Places, Quantity, STATES, Subject, subject, widened};
+use wrasse_spatial::{Instructions, Lanes, Level, Real, Work};
 use wrasse_world::{BaseAttitude, Equipment, Stepper, World, WorldSetup};
 
 /// Samples as the peers take them: fifteen batches.
 fn settings() -> Criterion {
     Criterion::default()
         .sample_size(15)
-        .warm_up_time(Duration::from_millis(200))
-        .measurement_time(Duration::from_millis(600))
+        .warm_up_time(Duration::from_millis(100))
+        .measurement_time(Duration::from_millis(300))
         .without_plots()
-}
-
-/// Every kernel alone, alone on AVX2, and in lanes on the widest level there is.
-fn vehicle<const J: usize>(criterion: &mut Criterion, name: &str) {
-    let subject: &Subject<f64, J> = &subject(name).expect("a golden vehicle");
-    let mut group = criterion.benchmark_group(name);
-    for (kernel, quantity) in KERNELS {
-        alone(&mut group, kernel, |state| Call { quantity, subject, state });
-    }
-    for (kernel, quantity) in DERIVATIVES {
-        alone(&mut group, kernel, |state| Call { quantity, subject, state });
-    }
-    // With two lanes at a time nothing flies side by side.
-    Level::best().choose_wide(InLanes { group: &mut group, subject });
-    let mut world = coasting(subject);
-    group.bench_function("coasting_step.single", |bencher| {
-        bencher.iter(|| black_box(&mut world).advance(STEP).is_ok());
-    });
-    group.finish();
 }
 
 type Group<'a> = BenchmarkGroup<'a, WallTime>;
 
-/// A kernel for single numbers, by the calls for its states.
-fn alone<W: Work>(group: &mut Group<'_>, kernel: &str, call: impl Fn(usize) -> W) {
-    built_for::<Baseline, W>(group, &format!("{kernel}.single"), &call);
+/// Every kernel for one vehicle on each level, and for many states on the widest.
+fn vehicle<const J: usize>(criterion: &mut Criterion, name: &str) {
+    let subject: &Subject<f64, J> = &subject(name).expect("a golden vehicle");
+    let mut group = criterion.benchmark_group(name);
+    for level in Level::ALL.into_iter().filter(|level| level.is_available()) {
+        level.restrict();
+        for (kernel, quantity) in KERNELS {
+            alone(&mut group, &format!("{kernel}.{}", name_of(level)), subject, quantity);
+        }
+        let mut world = coasting(subject);
+        group.bench_function(format!("coasting_step.{}", name_of(level)), |bencher| {
+            bencher.iter(|| black_box(&mut world).advance(STEP).is_ok());
+        });
+    }
     #[cfg(target_arch = "x86_64")]
-    if Level::Avx2.is_available() {
-        built_for::<wrasse_lanes::Avx2, W>(group, &format!("{kernel}.single_avx2"), &call);
+    match Level::best() {
+        Level::Avx512 => many::<wrasse_spatial::Avx512, J>(&mut group, subject),
+        Level::Avx2 => many::<wrasse_spatial::Avx2, J>(&mut group, subject),
+        Level::Base => many::<wrasse_spatial::Baseline, J>(&mut group, subject),
+    }
+    group.finish();
+}
+
+/// As results call a level.
+fn name_of(level: Level) -> &'static str {
+    match level {
+        Level::Base => "base",
+        Level::Avx2 => "avx2",
+        Level::Avx512 => "avx512",
     }
 }
 
-fn built_for<I: Instructions, W: Work>(
+/// A kernel for one state at a time.
+fn alone<const J: usize>(
     group: &mut Group<'_>,
     name: &str,
-    call: &impl Fn(usize) -> W,
+    subject: &Subject<f64, J>,
+    quantity: Quantity,
 ) {
-    let mut turn = 0;
+    let (mut turn, mut places) = (0, Places::new());
     group.bench_function(name, |bencher| {
         bencher.iter(|| {
             turn = (turn + 1) % STATES;
-            I::run(call(turn))
+            places.call_any(quantity, subject, turn);
         });
     });
 }
 
 /// Kernels for eight states at a time.
-struct InLanes<'a, 'g, const J: usize> {
-    group: &'a mut Group<'g>,
-    subject: &'a Subject<f64, J>,
-}
-
-impl<const J: usize> OnAnyLevel for InLanes<'_, '_, J> {
-    type Out = ();
-    fn with<I: Instructions>(self) {
-        let subject: &Subject<Lanes<8, I>, J> = &widened(self.subject);
-        for (kernel, quantity) in KERNELS {
-            let mut turn = 0;
-            self.group.bench_function(format!("{kernel}.lanes"), |bencher| {
-                bencher.iter(|| {
-                    turn = (turn + 1) % STATES;
-                    Lanes::<8, I>::apart(Call { quantity, subject, state: turn });
-                });
+fn many<I: Instructions, const J: usize>(group: &mut Group<'_>, subject: &Subject<f64, J>) {
+    let subject: &Subject<Lanes<8, I>, J> = &widened(subject);
+    for (kernel, quantity) in &KERNELS[..BATCHES] {
+        let (mut turn, mut places) = (0, Places::new());
+        group.bench_function(format!("{kernel}.batch_of_8"), |bencher| {
+            bencher.iter(|| {
+                turn = (turn + 1) % subject.states.len();
+                places.call(*quantity, subject, turn);
             });
-        }
+        });
     }
 }
 
@@ -134,26 +131,26 @@ impl<I: Instructions> Work for Peak<I> {
 }
 
 /// 100 × 12 × 2 × 8 operations.
-struct PeakOf<'a>(&'a mut Criterion);
-
-impl OnAnyLevel for PeakOf<'_> {
-    type Out = ();
-    fn with<I: Instructions>(self) {
-        let mut group = self.0.benchmark_group("peak");
-        group.bench_function("lanes_19200_operations", |bencher| {
-            bencher.iter(|| {
-                let start = [black_box(Lanes::<8, I>::from_f64(1.0)); 12];
-                Lanes::<8, I>::apart(Peak(start));
-            });
+fn peak<I: Instructions>(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("peak");
+    group.bench_function("lanes_19200_operations", |bencher| {
+        bencher.iter(|| {
+            let start = [black_box(Lanes::<8, I>::from_f64(1.0)); 12];
+            Lanes::<8, I>::apart(Peak(start));
         });
-        group.finish();
-    }
+    });
+    group.finish();
 }
 
 fn all(criterion: &mut Criterion) {
-    Level::best().choose(PeakOf(criterion));
-    vehicle::<7>(criterion, "one_arm");
-    vehicle::<13>(criterion, "two_arms");
+    #[cfg(target_arch = "x86_64")]
+    match Level::best() {
+        Level::Avx512 => peak::<wrasse_spatial::Avx512>(criterion),
+        Level::Avx2 => peak::<wrasse_spatial::Avx2>(criterion),
+        Level::Base => peak::<wrasse_spatial::Baseline>(criterion),
+    }
+    vehicle::<8>(criterion, "one_arm");
+    vehicle::<16>(criterion, "two_arms");
 }
 
 criterion_group! { name = kernels; config = settings(); targets = all }

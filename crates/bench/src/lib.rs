@@ -4,5 +4,5 @@
 mod kernels;
 mod subjects;
 
-pub use kernels::{Call, DERIVATIVES, Derivative, KERNELS, Quantity};
+pub use kernels::{BATCHES, KERNELS, Places, Quantity};
 pub use subjects::{Moment, STATES, Subject, subject, widened};

@@ -1,7 +1,7 @@
 //! The vehicles that are timed, in states that the clock cannot guess.
 
 use std::path::Path;
-use wrasse_dynamics::{BodyId, Generalized, GeneralizedVelocity, Payload, Robot, State};
+use wrasse_dynamics::{BodyId, Generalized, GeneralizedVelocity, MassProperties, Robot, State};
 use wrasse_spatial::{Instructions, Lanes, Pose, Quat, Real, SpatialVelocity, vec3};
 use wrasse_world::Noise;
 
@@ -29,7 +29,7 @@ pub fn subject<const J: usize>(name: &str) -> Result<Subject<f64, J>, String> {
     let path = golden.join(format!("{name}.urdf")).display().to_string();
     let vehicle = wrasse_vehicle::find_vehicle(&path, None)
         .map_err(|_| format!("{path} cannot be read as a vehicle"))?;
-    let matter = |body| Payload {
+    let matter = |body| MassProperties {
         M_F_F: *vehicle.robot.inertia(body),
         I_parts_F: *vehicle.robot.inertia_of_parts(body),
     };

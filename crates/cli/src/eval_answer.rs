@@ -51,7 +51,8 @@ fn result(vehicle: &Vehicle, frame: &Frame<f64>, q: &Question) -> Value {
     let dynamics = inverse_dynamics(&k, &q.nudot, none);
     let matrix: Vec<Vec<f64>> =
         (0..6 + n).map(|r| (0..6 + n).map(|c| M.element(r, c)).collect()).collect();
-    let all_columns: Vec<_> = J.base().iter().chain(&J.joints[..n]).copied().collect();
+    let all_columns: Vec<_> =
+        J.base().into_iter().chain(J.joints.columns().into_iter().take(n)).collect();
     json!({
         "mass_matrix": matrix,
         "bias_force": flat_force(&bias_force(&k), n),
@@ -66,8 +67,8 @@ fn result(vehicle: &Vehicle, frame: &Frame<f64>, q: &Question) -> Value {
             "attitude": { "w": attitude.w, "x": attitude.x, "y": attitude.y, "z": attitude.z },
         },
         "jacobian": rows(&all_columns),
-        "generalized_jacobian": rows(&generalized_jacobian(&J, &M)[..n]),
-        "fixed_attitude_jacobian": rows(&attitude_held_jacobian(&J, &M, &R_NB)[..n]),
+        "generalized_jacobian": rows(&generalized_jacobian(&J, &M).columns()[..n]),
+        "fixed_attitude_jacobian": rows(&attitude_held_jacobian(&J, &M, &R_NB).columns()[..n]),
         "lambda": lambda(vehicle, &k, frame),
         "reaction": reactions(vehicle, &k, q),
         "attitude_torque": xyz(attitude_torque(&k, &dynamics)),

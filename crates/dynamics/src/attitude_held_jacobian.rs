@@ -1,7 +1,7 @@
 //! The paper's Jacobian: base attitude held, centre of mass at rest.
 
 use crate::{BaseRows, Jacobian};
-use wrasse_spatial::{Mat3, Real, SpatialVelocity};
+use wrasse_spatial::{At, Mat3, Real, SpatialVelocity};
 
 /// `J̄`: twist of the frame per joint rate, base rotation held and linear momentum zero.
 ///
@@ -16,11 +16,13 @@ pub fn attitude_held_jacobian<T: Real, const J: usize>(
     J_frame: &Jacobian<T, J>,
     M: &BaseRows<T, J>,
     R_NB: &Mat3<T>,
-) -> [SpatialVelocity<T>; J] {
+) -> SpatialVelocity<[T; J]> {
     let per_mass = T::one() / M.M_bb.mass;
     let mut columns = J_frame.joints;
     for j in 0..M.count.min(J) {
-        columns[j].linear -= *R_NB * M.M_bj[j].force * per_mass;
+        let mut V = columns.at(j);
+        V.linear -= *R_NB * M.M_bj.at(j).force * per_mass;
+        columns.put(j, V);
     }
     columns
 }

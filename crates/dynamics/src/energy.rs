@@ -1,15 +1,18 @@
 //! Kinetic energy.
 
 use crate::Kinematics;
-use wrasse_spatial::Real;
+use crate::composite_inertia::link_inertia;
+use wrasse_spatial::{At, Group, OneByOne, Real};
 
 /// Kinetic energy `Σ ½ V·M V` (J), summed body by body.
-#[inline(always)]
+#[inline]
 pub fn kinetic_energy<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> T {
-    let (mut twice, V_L) = (T::zero(), k.link_twists());
-    for body in k.robot.bodies() {
-        let V = V_L[body];
-        twice += V.power(&(*k.robot.inertia_in_link(body) * V));
+    let (V_B, V) = (k.state.V_NB_B, k.link_twists());
+    let mut twice = V_B.power(&(k.robot.bodies.base.M_F_F * V_B));
+    for j in k.robot.joints() {
+        let one: Group<OneByOne<T>> = Group::of(j);
+        let (V, M) = (V.at(j), link_inertia(k.robot, &k.posture, one));
+        twice += V.power(&(M * V));
     }
     twice * T::from_f64(0.5)
 }

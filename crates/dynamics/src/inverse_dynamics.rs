@@ -1,41 +1,41 @@
 //! Inverse dynamics: the forces that a motion takes.
 
+use crate::composite_inertia::LinkInertias;
 use crate::{
-    BodyId, Generalized, GeneralizedForce, GeneralizedVelocity, JointKind, Kinematics, Outside,
-    PerBody, Robot,
+    BodyId, Configuration, Generalized, GeneralizedForce, GeneralizedVelocity, Kinematics, Outside,
+    Posture, Robot,
 };
-use wrasse_spatial::{Mat3, Real, SpatialForce, SpatialInertia, Vec3, Work, vec3};
+use wrasse_spatial::{
+    At, ClassicalAcceleration, Layout, Real, Rows, SpatialForce, SpatialInertia, SpatialVelocity,
+    Vec3, groups, kernel,
+};
 
 /// Forces of a motion: what drives it, and what each joint carries.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InverseDynamics<T, const J: usize> {
     /// Wrench on the base at Bo (base axes) and joint forces, `[torque; force; τ]`.
     pub force: GeneralizedForce<T, J>,
-    /// What the parent exerts on each link through its joint, in the link's axes.
-    F_L: [SpatialForce<T>; J],
+    /// What the parent exerts on each link through its joint, about the link's origin in base axes.
+    pub(crate) F: SpatialForce<[T; J]>,
+    /// Turning rate of each link (rad/s), base axes.
+    pub(crate) w: Vec3<[T; J]>,
+    /// Acceleration of each link at its origin, base axes.
+    pub(crate) A: ClassicalAcceleration<[T; J]>,
 }
 
-impl<T: Real, const J: usize> InverseDynamics<T, J> {
-    /// All six components that the parent exerts on a body through its joint, about the body's
-    /// origin, in its axes (N·m, N). The base's is the wrench on the base.
+/// What a base does: its twist, and how that changes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BaseMotion<T> {
+    pub(crate) w: Vec3<T>,
+    pub(crate) A: ClassicalAcceleration<T>,
+}
+
+impl<T: Real> BaseMotion<T> {
+    /// From the twist and the time derivatives of its components.
     #[inline(always)]
-    pub fn F_B_B(&self, robot: &Robot<T, J>, body: BodyId) -> SpatialForce<T> {
-        let BodyId::Link(j) = body else { return self.force.base };
-        let (F_L, R_LB) = (&self.F_L[j], &robot.link(j).R_LB);
-        SpatialForce::new(R_LB.transpose_mul(F_L.torque), R_LB.transpose_mul(F_L.force))
+    pub(crate) fn new(V_NB_B: &SpatialVelocity<T>, Vdot: &SpatialVelocity<T>) -> Self {
+        Self { w: V_NB_B.angular, A: ClassicalAcceleration::of_twist(V_NB_B, Vdot) }
     }
-}
-
-/// How a body moves, in its axes; accelerations are what an observer in N measures.
-#[derive(Clone, Copy)]
-struct Motion<T> {
-    /// Turning rate (rad/s) and acceleration (rad/s²).
-    w: Vec3<T>,
-    alpha: Vec3<T>,
-    /// Acceleration of the origin (m/s²).
-    a: Vec3<T>,
-    /// How the acceleration changes from point to point of the body: `[α]× + [w]×[w]×` (1/s²).
-    gradient: Mat3<T>,
 }
 
 /// Wrench on the base and joint forces that give the accelerations `ν̇`:
@@ -48,46 +48,18 @@ struct Motion<T> {
 /// | `outside` | wrench on each body at its origin, in its axes | N·m, N |
 ///
 /// # Source
-/// [`LuhWalkerPaul1980`](wrasse_spatial::references::LuhWalkerPaul1980), over a tree on a free base.
+/// [`LuhWalkerPaul1980`](wrasse_spatial::references::LuhWalkerPaul1980), over a tree on a free base,
+/// all of it in base axes.
 #[doc(alias = "rnea")]
+#[inline]
 pub fn inverse_dynamics<'a, T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     nudot: &GeneralizedVelocity<T, J>,
     outside: impl Into<Outside<'a, T, J>>,
 ) -> InverseDynamics<T, J> {
-    T::apart(Taken { k, nudot, outside: outside.into() })
-}
-
-/// The forces that a motion takes, as a piece of work.
-struct Taken<'a, T, const J: usize> {
-    k: &'a Kinematics<'a, T, J>,
-    nudot: &'a GeneralizedVelocity<T, J>,
-    outside: Outside<'a, T, J>,
-}
-
-impl<T: Real, const J: usize> Work for Taken<'_, T, J> {
-    type Out = InverseDynamics<T, J>;
-    #[inline(always)]
-    fn run(self) -> Self::Out {
-        let Self { k, nudot, outside } = self;
-        let (mut base, mut F_L) = own_forces(k, nudot);
-        base = base - outside.base;
-        let mut joints = [T::zero(); J];
-        for j in k.robot.joints().rev() {
-            // Tip to base: the motor feels the part along its joint, the parent all of it.
-            let link = k.robot.link(j);
-            if let Some(F) = outside.on_link(k.robot, j) {
-                F_L[j] = F_L[j] - F;
-            }
-            joints[j] = link.project(&F_L[j]);
-            let onto_parent = k.seat(j).force_to_parent(&F_L[j]);
-            match link.parent {
-                BodyId::Base => base += onto_parent,
-                BodyId::Link(p) => F_L[p.min(j)] += onto_parent,
-            }
-        }
-        InverseDynamics { force: Generalized { base, joints }, F_L }
-    }
+    let mut out = InverseDynamics::new();
+    drive(k.robot, &k.posture, &k.state.velocity(), nudot, outside.into(), &mut out);
+    out
 }
 
 /// `c(q, ν)`: the forces that a motion without generalized acceleration takes.
@@ -95,69 +67,146 @@ pub fn bias_force<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> Generali
     inverse_dynamics(k, &Generalized::default(), Outside::nothing()).force
 }
 
-/// What each body alone needs for its motion: the rate of its momentum.
-#[inline(always)]
-fn own_forces<T: Real, const J: usize>(
-    k: &Kinematics<'_, T, J>,
-    nudot: &GeneralizedVelocity<T, J>,
-) -> (SpatialForce<T>, [SpatialForce<T>; J]) {
-    let (V, Vdot) = (&k.state.V_NB_B, &nudot.base);
-    // From the derivative of a twist's components to what an observer measures: v̇ + w × v.
-    let a = Vdot.linear + V.angular.cross(V.linear);
-    let mut motions: PerBody<_, J> = PerBody::filled(Motion::new(V.angular, Vdot.angular, a));
-    let mut F_L = [SpatialForce::zero(); J];
-    for j in k.robot.joints() {
-        let parent = &motions[k.robot.link(j).parent];
-        motions.links[j] = motion_of_link(k, j, parent, nudot.joints[j]);
-        F_L[j] = motions.links[j].force(&k.robot.link(j).M_L);
+kernel! {
+    /// The forces of a motion in a posture: [`inverse_dynamics`] into a place.
+    pub fn drive<L, T, J>(
+        robot: &Robot<T, J>,
+        posture: &Posture<T, J>,
+        nu: &GeneralizedVelocity<T, J>,
+        nudot: &GeneralizedVelocity<T, J>,
+        outside: Outside<'_, T, J>,
+        out: &mut InverseDynamics<T, J>,
+    ) {
+        let base = BaseMotion::new(&nu.base, &nudot.base);
+        let joints = (&nu.joints, &nudot.joints);
+        newton_euler::<L, J>(robot, posture, &base, joints, posture, &outside, out);
     }
-    (motions.base.force(k.robot.inertia(BodyId::Base)), F_L)
 }
 
-/// Motion of a link from that of its parent.
-#[inline(always)]
-fn motion_of_link<T: Real, const J: usize>(
-    k: &Kinematics<'_, T, J>,
-    j: usize,
-    parent: &Motion<T>,
-    qddot: T,
-) -> Motion<T> {
-    let (seat, qdot) = (k.seat(j), k.state.v[j]);
-    let mut w = seat.to_link(&parent.w);
-    let mut alpha = seat.to_link(&parent.alpha);
-    let mut a = seat.to_link(&(parent.a + parent.gradient * seat.p_PL_P));
-    // w × z q̇: what the turning parent does to the joint's motion.
-    let across = vec3(w.y * qdot, -(w.x * qdot), T::zero());
-    match k.robot.link(j).kind {
-        JointKind::Revolute => {
-            w.z += qdot;
-            alpha = vec3(alpha.x + across.x, alpha.y + across.y, alpha.z + qddot);
-        }
-        JointKind::Prismatic => {
-            let two = T::from_f64(2.0);
-            a = vec3(a.x + across.x * two, a.y + across.y * two, a.z + qddot);
-        }
+kernel! {
+    /// The same in a configuration: inertias in base axes are at hand.
+    pub fn drive_configuration<L, T, J>(
+        robot: &Robot<T, J>,
+        configuration: &Configuration<T, J>,
+        nu: &GeneralizedVelocity<T, J>,
+        nudot: &GeneralizedVelocity<T, J>,
+        outside: Outside<'_, T, J>,
+        out: &mut InverseDynamics<T, J>,
+    ) {
+        let Configuration { posture, composite, .. } = configuration;
+        let base = BaseMotion::new(&nu.base, &nudot.base);
+        let joints = (&nu.joints, &nudot.joints);
+        newton_euler::<L, J>(robot, posture, &base, joints, composite, &outside, out);
     }
-    Motion::new(w, alpha, a)
 }
 
-impl<T: Real> Motion<T> {
-    #[inline(always)]
-    fn new(w: Vec3<T>, alpha: Vec3<T>, a: Vec3<T>) -> Self {
-        let (xx, yy, zz) = (w.x * w.x, w.y * w.y, w.z * w.z);
-        let (xy, xz, yz) = (w.x * w.y, w.x * w.z, w.y * w.z);
-        let gradient = Mat3::from_rows(
-            vec3(-(yy + zz), xy - alpha.z, xz + alpha.y),
-            vec3(xy + alpha.z, -(xx + zz), yz - alpha.x),
-            vec3(xz - alpha.y, yz + alpha.x, -(xx + yy)),
-        );
-        Self { w, alpha, a, gradient }
+/// Newton's and Euler's laws for all links: how they move, base to tips; what that takes; what the
+/// joints carry of it, tips to base.
+#[inline(always)]
+pub(crate) fn newton_euler<L: Layout, const J: usize>(
+    robot: &Robot<L::One, J>,
+    posture: &Posture<L::One, J>,
+    base: &BaseMotion<L::One>,
+    joints: (&[L::One; J], &[L::One; J]),
+    inertias: &impl LinkInertias<L, J>,
+    outside: &Outside<'_, L::One, J>,
+    out: &mut InverseDynamics<L::One, J>,
+) {
+    accelerate::<L, J>(robot, posture, base, joints, out);
+    let InverseDynamics { force, F, w, A } = out;
+    for i in groups::<L, J>(robot.joint_count()) {
+        F.put(i, own_wrench(&inertias.inertia(robot, i), w.at(i), &A.at(i)));
     }
-    /// Newton and Euler about the origin.
+    let mut on_base = own_wrench(&robot.bodies.base.M_F_F, base.w, &base.A) - outside.base;
+    outside.take_off(robot, posture, F);
+    on_base = robot.tips_to_base(on_base, F, |j, F| F.about(-posture.p_PL_B.at(j)));
+    force.base = on_base;
+    for i in groups::<L, J>(robot.joint_count()) {
+        let (axis, F) = (posture.axis(i), F.at(i));
+        let mut tau = axis.dot(F.torque);
+        if robot.links.slide {
+            tau = tau * robot.links.turns.at(i) + axis.dot(F.force) * robot.links.slides.at(i);
+        }
+        force.joints.put(i, tau);
+    }
+}
+
+/// Turning rates and accelerations of all links.
+#[inline(always)]
+pub(crate) fn accelerate<L: Layout, const J: usize>(
+    robot: &Robot<L::One, J>,
+    posture: &Posture<L::One, J>,
+    base: &BaseMotion<L::One>,
+    (qdot, qddot): (&[L::One; J], &[L::One; J]),
+    out: &mut InverseDynamics<L::One, J>,
+) {
+    let (links, A) = (&robot.links, &mut out.A);
+    // w = w_P + s q̇,  α = α_P + s q̈ + w_P × s q̇
+    let start = (base.w, base.A.angular);
+    robot.base_to_tips(start, &mut (&mut out.w, &mut A.angular), |j, (w_P, alpha_P)| {
+        let axis = posture.axis_of(j);
+        let (mut rate, mut gain) = (qdot.at(j), qddot.at(j));
+        if links.slide {
+            (rate, gain) = (rate * links.turns.at(j), gain * links.turns.at(j));
+        }
+        let turn = axis * rate;
+        (w_P + turn, alpha_P + (axis * gain + w_P.cross(turn)))
+    });
+    // a = a_P + α_P × p + w_P × (w_P × p + 2 s q̇) + s q̈
+    for i in groups::<L, J>(robot.joint_count()) {
+        let (axis, p) = (posture.axis(i), posture.p_PL_B.at(i));
+        let (mut rate, mut gain) = (qdot.at(i), qddot.at(i));
+        if links.slide {
+            (rate, gain) = (rate * links.turns.at(i), gain * links.turns.at(i));
+        }
+        let turn = axis * rate;
+        let w_P = out.w.at(i) - turn;
+        let alpha_P = A.angular.at(i) - (axis * gain + w_P.cross(turn));
+        let mut more = w_P.cross(p);
+        let mut a = alpha_P.cross(p);
+        if links.slide {
+            let slide = axis * (qdot.at(i) * links.slides.at(i));
+            more += slide + slide;
+            a += axis * (qddot.at(i) * links.slides.at(i));
+        }
+        A.linear.put(i, a + w_P.cross(more));
+    }
+    robot.sum_to_tips(base.A.linear, &mut A.linear);
+}
+
+/// What bodies alone need for their motion, about their origins: Newton and Euler.
+#[inline(always)]
+fn own_wrench<T: Real>(
+    M: &SpatialInertia<T>,
+    w: Vec3<T>,
+    A: &ClassicalAcceleration<T>,
+) -> SpatialForce<T> {
+    let (m, h, I) = (M.mass, M.first_moment, M.rotational);
+    SpatialForce::new(
+        I * A.angular + w.cross(I * w) + h.cross(A.linear),
+        A.linear * m + A.angular.cross(h) + w.cross(w.cross(h)),
+    )
+}
+
+impl<T: Real, const J: usize> InverseDynamics<T, J> {
+    /// Room for them.
     #[inline(always)]
-    fn force(&self, M: &SpatialInertia<T>) -> SpatialForce<T> {
-        let (h, I) = (M.first_moment, M.rotational);
-        let torque = I * self.alpha + self.w.cross(I * self.w) + h.cross(self.a);
-        SpatialForce::new(torque, self.a * M.mass + self.gradient * h)
+    pub fn new() -> Self {
+        let force = Generalized { base: SpatialForce::zero(), joints: [T::zero(); J] };
+        Self { force, F: Rows::zero_rows(), w: Rows::zero_rows(), A: Rows::zero_rows() }
+    }
+    /// All six components that the parent exerts on a body through its joint, about the body's
+    /// origin, in its axes (N·m, N). The base's is the wrench on the base.
+    #[inline(always)]
+    pub fn F_B_B(&self, k: &Kinematics<'_, T, J>, body: BodyId) -> SpatialForce<T> {
+        let BodyId::Link(j) = body else { return self.force.base };
+        let (F, R) = (self.F.at(j), k.posture.pose_of(k.robot, body).rotation);
+        SpatialForce::new(R.transpose_mul(F.torque), R.transpose_mul(F.force))
+    }
+}
+
+impl<T: Real, const J: usize> Default for InverseDynamics<T, J> {
+    fn default() -> Self {
+        Self::new()
     }
 }

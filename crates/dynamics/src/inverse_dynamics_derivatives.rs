@@ -5,12 +5,12 @@
 
 use crate::robot::within;
 use crate::{
-    BodyId, Generalized, GeneralizedForce, GeneralizedVelocity, JointKind, Kinematics, Link,
-    MassMatrix, Outside, PerBody, Seat,
+    BodyId, Generalized, GeneralizedForce, GeneralizedVelocity, Kinematics, MassMatrix, Outside,
+    PerBody,
 };
 use core::ops::AddAssign;
 use wrasse_spatial::{
-    Mat3, Pose, Real, SpatialForce, SpatialInertia, SpatialVelocity, Sym3, Vec3, vec3,
+    At, Mat3, Pose, Real, SpatialForce, SpatialInertia, SpatialVelocity, Sym3, Vec3, vec3,
 };
 
 /// Derivative of a generalized vector with respect to one number of each joint.
@@ -86,16 +86,13 @@ impl<T: Real> Motion<T> {
         let none = SpatialVelocity::zero();
         Self { X_0L: Pose::identity(), V, S: none, Sdot: none }
     }
-    /// Of a body from that of its parent, at joint rate `v`.
+    /// Of a link from that of its parent.
     #[inline(always)]
-    fn of_child(&self, link: &Link<T>, seat: &Seat<'_, T>, v: T) -> Self {
-        let X_0L = seat.pose(&self.X_0L);
-        let axis = X_0L.rotation.column(2);
-        let S = match link.kind {
-            JointKind::Revolute => SpatialVelocity::new(axis, X_0L.translation.cross(axis)),
-            JointKind::Prismatic => SpatialVelocity::new(Vec3::zero(), axis),
-        };
-        Self { X_0L, V: self.V + S * v, S, Sdot: self.V.cross(&S) }
+    fn of_link<const J: usize>(&self, k: &Kinematics<'_, T, J>, j: usize) -> Self {
+        let X_0L = k.posture.X_BL(j);
+        let at_L = k.robot.subspace_of(j, X_0L.rotation.column(2));
+        let S = at_L.shifted_by(-X_0L.translation);
+        Self { X_0L, V: self.V + S * k.state.v[j], S, Sdot: self.V.cross(&S) }
     }
 }
 
@@ -280,9 +277,8 @@ impl<T: Real, const J: usize> Bodies<T, J> {
         let matter = Matter::of_body(k.robot.inertia(BodyId::Base), &base);
         (self.motions.base, self.matter.base, self.carried.base) = (base, matter, matter);
         for j in k.robot.joints() {
-            let link = k.robot.link(j);
-            let motion = self.motions[link.parent].of_child(link, &k.seat(j), k.state.v[j]);
-            let matter = Matter::of_body(&link.M_L, &motion);
+            let motion = self.motions[k.robot.joint(j).parent].of_link(k, j);
+            let matter = Matter::of_body(&k.robot.links.M_L.at(j), &motion);
             self.motions.links[j] = motion;
             self.matter.links[j] = matter;
             self.carried.links[j] = matter;
@@ -303,9 +299,13 @@ impl<T: Real, const J: usize> Bodies<T, J> {
         let force = |body: BodyId, A: &SpatialVelocity<T>| {
             let motion = &self.motions[body];
             let taken = self.matter[body].force(&motion.V, A);
-            match outside.on(k.robot, body) {
-                Some(F) => taken - motion.X_0L.force_to_parent(&F),
-                None => taken,
+            match (body, outside.links) {
+                (BodyId::Base, _) => taken - outside.base,
+                (BodyId::Link(j), Some(links)) => {
+                    let F = Outside::on_link(k.robot, &k.posture, j, &links[j]);
+                    taken - F.about(-motion.X_0L.translation)
+                }
+                (BodyId::Link(_), None) => taken,
             }
         };
         let mut found = Forces {
@@ -365,10 +365,13 @@ impl<T: Real, const J: usize> Bodies<T, J> {
     /// The mass matrix, into a place that is zero.
     #[inline(always)]
     pub(crate) fn mass_matrix_into(&self, k: &Kinematics<'_, T, J>, M: &mut MassMatrix<T, J>) {
+        M.base.count = k.robot.joint_count();
         M.base.M_bb = self.carried.base.inertia();
         for j in k.robot.joints() {
-            let inertial = self.carried.links[j].times(&self.motions.links[j].S);
-            M.base.M_bj[j] = inertial;
+            let S = self.motions.links[j].S;
+            let inertial = self.carried.links[j].times(&S);
+            M.base.S.put(j, S);
+            M.base.M_bj.put(j, inertial);
             for i in k.robot.path_to_base(BodyId::Link(j)) {
                 let M_ij = self.motions.links[i].S.power(&inertial);
                 M.M_jj[i][j] = M_ij;
@@ -396,7 +399,7 @@ pub fn inverse_dynamics_derivatives<'a, T: Real, const J: usize>(
     nudot: &GeneralizedVelocity<T, J>,
     outside: impl Into<Outside<'a, T, J>>,
 ) -> InverseDynamicsDerivatives<T, J> {
-    let mut found = InverseDynamicsDerivatives::nothing(k.robot.joint_count());
+    let mut found = InverseDynamicsDerivatives::nothing();
     found.fill(k, nudot, &outside.into());
     found
 }
@@ -404,14 +407,14 @@ pub fn inverse_dynamics_derivatives<'a, T: Real, const J: usize>(
 impl<T: Real, const J: usize> InverseDynamicsDerivatives<T, J> {
     /// All zero.
     #[inline(always)]
-    pub(crate) fn nothing(count: usize) -> Self {
+    pub(crate) fn nothing() -> Self {
         let no_force = SpatialForce::zero();
         Self {
             force: Generalized::default(),
             by_position: JointColumns::filled(no_force),
             by_rate: JointColumns::filled(no_force),
             by_base_velocity: BaseColumns { base: [no_force; 6], joints: [[T::zero(); 6]; J] },
-            by_acceleration: MassMatrix::nothing(count),
+            by_acceleration: MassMatrix::new(),
         }
     }
     /// All of it, into a place that is zero.
@@ -472,7 +475,7 @@ impl<T: Real, const J: usize> InverseDynamicsDerivatives<T, J> {
     ) {
         let (own, matter) = (&bodies.motions.links[j], &bodies.carried.links[j]);
         // Moved by joint j: what it carries, as one body.
-        let inertial = self.by_acceleration.M_bj[j];
+        let inertial = self.by_acceleration.M_bj.at(j);
         let twice = inertial + inertial;
         let position =
             matter.times(&Sddot[j]) + matter.coriolis(own.Sdot.angular) + own.S.cross_force(force);

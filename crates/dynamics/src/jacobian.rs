@@ -1,9 +1,14 @@
 //! The Jacobian of a frame and what its change adds to the acceleration.
 
-use crate::robot::within;
-use crate::{BodyId, Frame, Generalized, GeneralizedVelocity, JointKind, Kinematics, PerBody};
+use crate::inverse_dynamics::{BaseMotion, accelerate};
+use crate::momentum::in_all;
+use crate::{
+    BodyId, Frame, Generalized, GeneralizedVelocity, InverseDynamics, Kinematics, Posture, Robot,
+};
 use core::array;
-use wrasse_spatial::{Mat3, Real, SpatialAcceleration, SpatialVelocity, Vec3};
+use wrasse_spatial::{
+    At, ClassicalAcceleration, Mat3, OneByOne, Real, Rows, SpatialVelocity, Vec3, groups, kernel,
+};
 
 /// Columns of `J_V_NE_N`: twist of a frame's origin in inertial axes, for unit rates.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,7 +18,7 @@ pub struct Jacobian<T, const J: usize> {
     /// From the base's origin to the frame's, inertial axes (m).
     pub p_BE_N: Vec3<T>,
     /// Columns for the joints; zero off the path to the frame.
-    pub joints: [SpatialVelocity<T>; J],
+    pub joints: SpatialVelocity<[T; J]>,
 }
 
 impl<T: Real, const J: usize> Jacobian<T, J> {
@@ -33,7 +38,7 @@ impl<T: Real, const J: usize> Jacobian<T, J> {
     pub fn times(&self, nu: &GeneralizedVelocity<T, J>) -> SpatialVelocity<T> {
         let mut V = self.of_base(&nu.base);
         for j in 0..J {
-            V += self.joints[j] * nu.joints[j];
+            V += self.joints.at(j) * nu.joints[j];
         }
         V
     }
@@ -43,61 +48,64 @@ impl<T: Real, const J: usize> Jacobian<T, J> {
 ///
 /// # Source
 /// [`Featherstone2008`](wrasse_spatial::references::Featherstone2008) ch. 4.
-#[inline(always)]
+#[inline]
 pub fn jacobian<T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     frame: &Frame<T>,
 ) -> Jacobian<T, J> {
-    let (X_NB, X_NL) = (&k.state.X_NB, k.link_poses(&k.state.X_NB));
-    let X_NC = frame.body.of(X_NB, &X_NL);
-    let p_NE = X_NC.point(k.robot.in_link(frame.body, frame.X_BF.translation));
-    let mut joints = [SpatialVelocity::zero(); J];
-    let mut at = frame.body;
-    while let BodyId::Link(j) = at {
-        let j = within::<J>(j);
-        // Twist of the link for unit rate, carried to E.
-        let (link, X_NL) = (k.robot.link(j), &X_NL[j]);
-        let axis_N = X_NL.rotation.column(2);
-        joints[j] = match link.kind {
-            JointKind::Revolute => {
-                SpatialVelocity::new(axis_N, axis_N.cross(p_NE - X_NL.translation))
-            }
-            JointKind::Prismatic => SpatialVelocity::new(Vec3::zero(), axis_N),
-        };
-        at = link.parent;
-    }
-    Jacobian { R_NB: X_NB.rotation, p_BE_N: p_NE - X_NB.translation, joints }
+    let R_NB = k.state.X_NB.rotation;
+    let mut J_frame = Jacobian { R_NB, p_BE_N: Vec3::zero(), joints: Rows::zero_rows() };
+    jacobian_columns(k.robot, &k.posture, frame, &mut J_frame);
+    J_frame
 }
 
-/// `J̇ ν`: rate of `V_NE_N` (rad/s², m/s²) with all generalized accelerations zero.
-///
-/// This is the classical acceleration of the frame's origin: what an observer in N measures.
-#[inline(always)]
+kernel! {
+    /// [`jacobian`] of a frame on a base that is turned as the place says.
+    pub fn jacobian_columns<L, T, J>(
+        robot: &Robot<T, J>,
+        posture: &Posture<T, J>,
+        frame: &Frame<T>,
+        J_frame: &mut Jacobian<T, J>,
+    ) {
+        let p_BE_B = posture.pose(robot, frame).translation;
+        J_frame.p_BE_N = J_frame.R_NB * p_BE_B;
+        let (R, p_BE_B) = (in_all::<L>(&J_frame.R_NB), L::all3(p_BE_B));
+        let carries = robot.way_to(frame.body);
+        for i in groups::<L, J>(robot.joint_count()) {
+            // Twist of each link on the way for unit rate, carried to E.
+            let axis = posture.axis(i) * carries.at(i);
+            let S = robot.links.subspace(i, axis).shifted_by(p_BE_B - posture.p_BL_B.at(i));
+            J_frame.joints.put(i, SpatialVelocity::new(R * S.angular, R * S.linear));
+        }
+    }
+}
+
+/// `J̇ ν`: rate of `V_NE_N` (rad/s², m/s²) with all generalized accelerations zero: the acceleration of
+/// the frame's origin that an observer in N measures.
+#[inline]
 pub fn bias_acceleration<T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     frame: &Frame<T>,
-) -> SpatialAcceleration<T> {
-    let A_NB_B = spatial_accelerations(k, &Generalized::default());
-    let p_BE_B = frame.X_BF.translation;
-    let A = A_NB_B[frame.body].shifted_by(p_BE_B);
-    let V = k.V_NB_B(frame.body).shifted_by(p_BE_B);
-    let R_NB = k.X_NB(frame.body).rotation;
-    SpatialAcceleration::new(R_NB * A.angular, R_NB * (A.linear + V.angular.cross(V.linear)))
+) -> SpatialVelocity<T> {
+    let (w, A) = accelerations(k, &Generalized::default(), frame.body);
+    let R = k.posture.pose_of(k.robot, frame.body).rotation;
+    let A = A.shifted_by(R * frame.X_BF.translation, w);
+    let R_NB = k.state.X_NB.rotation;
+    SpatialVelocity::new(R_NB * A.angular, R_NB * A.linear)
 }
 
-/// Spatial accelerations `A_NB_B` of all bodies for the generalized accelerations `ν̇`.
-#[inline(always)]
-pub(crate) fn spatial_accelerations<T: Real, const J: usize>(
+/// Turning rate (rad/s) and acceleration of a body at its origin, base axes, for the generalized
+/// accelerations `ν̇`.
+#[inline]
+pub(crate) fn accelerations<T: Real, const J: usize>(
     k: &Kinematics<'_, T, J>,
     nudot: &GeneralizedVelocity<T, J>,
-) -> PerBody<SpatialAcceleration<T>, J> {
-    let (mut A_NB_B, V_NB_B): (PerBody<_, J>, _) = (PerBody::filled(nudot.base), k.twists());
-    for j in k.robot.joints() {
-        let joint = k.robot.joint(j);
-        let VJ_B = joint.velocity(k.state.v[j]);
-        A_NB_B.links[j] = k.X_PB(j).velocity_to_child(&A_NB_B[joint.parent])
-            + joint.velocity(nudot.joints[j])
-            + V_NB_B.links[j].cross(&VJ_B);
-    }
-    A_NB_B
+    body: BodyId,
+) -> (Vec3<T>, ClassicalAcceleration<T>) {
+    let base = BaseMotion::new(&k.state.V_NB_B, &nudot.base);
+    let BodyId::Link(j) = body else { return (base.w, base.A) };
+    let mut links = InverseDynamics::new();
+    let joints = (&k.state.v, &nudot.joints);
+    accelerate::<OneByOne<T>, J>(k.robot, &k.posture, &base, joints, &mut links);
+    (links.w.at(j), links.A.at(j))
 }

@@ -1,108 +1,67 @@
-//! How each joint carries its link, and what follows: poses and twists of all bodies.
+//! Poses and twists of all bodies in one state.
 
-use crate::robot::within;
-use crate::{BodyId, Frame, Link, PerBody, Robot, Seat, State};
-use wrasse_spatial::{Mat3, Pose, Real, SpatialVelocity, Turn, Vec3};
+use crate::{BodyId, Configuration, Frame, PerBody, Posture, Robot, State, compose, place};
+use wrasse_spatial::{At, Group, Mat3, OneByOne, Pose, Real, Rows, SpatialVelocity, Vec3};
 
-/// How one robot is bent in one state. It borrows both, so they cannot go stale.
-///
-/// Kept is what every algorithm needs: the sine and cosine of each joint. Poses and twists are worked
-/// out for those that ask.
+/// How one robot is bent and moves in one state. It borrows both, so they cannot go stale.
 #[derive(Debug, Clone)]
 pub struct Kinematics<'a, T, const J: usize> {
     /// The robot.
     pub robot: &'a Robot<T, J>,
     /// Its state.
     pub state: &'a State<T, J>,
-    /// θ of each link.
-    turns: [Turn<T>; J],
+    /// Where its links are.
+    pub posture: Posture<T, J>,
 }
 
 /// How a robot is bent in a state.
-///
-/// # Source
-/// [`Featherstone2008`](wrasse_spatial::references::Featherstone2008) ch. 4.
-#[inline(always)]
+#[inline]
 pub fn kinematics<'a, T: Real, const J: usize>(
     robot: &'a Robot<T, J>,
     state: &'a State<T, J>,
 ) -> Kinematics<'a, T, J> {
-    let mut theta = [T::zero(); J];
-    for j in robot.joints() {
-        theta[j] = robot.link(j).theta(state.q[j]);
-    }
-    let (sin, cos) = T::sin_cos_each(&theta, robot.joint_count());
-    let mut turns = [Turn::none(); J];
-    for j in robot.joints() {
-        turns[j] = Turn { sin: sin[j], cos: cos[j] };
-    }
-    Kinematics { robot, state, turns }
+    let mut k = Kinematics { robot, state, posture: Posture::new() };
+    place(robot, &state.q, &mut k.posture);
+    k
 }
 
-impl<'a, T: Real, const J: usize> Kinematics<'a, T, J> {
-    /// As bent as it is, but placed and moving as another state says, whose joint positions must be
-    /// the same: no sine is worked out twice.
-    #[inline(always)]
-    pub fn moving_as<'b>(&self, state: &'b State<T, J>) -> Kinematics<'b, T, J>
-    where
-        'a: 'b,
-    {
-        Kinematics { robot: self.robot, state, turns: self.turns }
-    }
-    /// A link on its parent.
-    #[inline(always)]
-    pub fn seat(&self, j: usize) -> Seat<'a, T> {
-        let j = within::<J>(j);
-        self.robot.link(j).seat(self.turns[j], self.state.q[j])
-    }
-    /// Poses `X_AL` of all links, seen from where the base is at `X_AB`.
-    #[inline(always)]
-    pub(crate) fn link_poses(&self, X_AB: &Pose<T>) -> [Pose<T>; J] {
-        let mut X_AL = [*X_AB; J];
-        for j in self.robot.joints() {
-            X_AL[j] = self.seat(j).pose(self.robot.link(j).parent.of(X_AB, &X_AL));
-        }
-        X_AL
-    }
-    /// Twists `V_NL_L` of all links (rad/s, m/s).
-    #[inline(always)]
-    pub(crate) fn link_twists(&self) -> PerBody<SpatialVelocity<T>, J> {
-        let mut V = PerBody::filled(self.state.V_NB_B);
-        for j in self.robot.joints() {
-            let link = self.robot.link(j);
-            let carried = self.seat(j).velocity_to_link(&V[link.parent]);
-            V.links[j] = carried + link.velocity(self.state.v[j]);
-        }
-        V
-    }
+impl<T: Real, const J: usize> Kinematics<'_, T, J> {
     /// Pose `X_PB` of the body that a joint carries, from the body it is mounted on.
     #[inline(always)]
     pub(crate) fn X_PB(&self, j: usize) -> Pose<T> {
-        let (link, seat) = (self.robot.link(j), self.seat(j));
-        let R_BpP = match link.parent {
-            BodyId::Base => Mat3::identity(),
-            BodyId::Link(p) => self.robot.link(p).R_LB.transpose(),
-        };
-        Pose::new(seat.carried_by(&R_BpP) * link.R_LB, R_BpP * seat.p_PL_P)
+        self.robot.joint(j).X_PB(self.state.q.at(j))
+    }
+    /// All that the joint positions give.
+    pub fn configuration(&self) -> Configuration<T, J> {
+        let mut configuration = Configuration { posture: self.posture, ..Configuration::new() };
+        let Configuration { posture, composite, base } = &mut configuration;
+        compose(self.robot, posture, composite, base);
+        configuration
     }
     /// Pose `X_NB` of a body.
     #[inline(always)]
     pub fn X_NB(&self, body: BodyId) -> Pose<T> {
-        let (mut X, mut at) = (Pose::identity(), body);
-        while let BodyId::Link(j) = at {
-            X = self.X_PB(j) * X;
-            at = self.robot.link(j).parent;
-        }
-        self.state.X_NB * X
+        self.state.X_NB * self.posture.pose_of(self.robot, body)
     }
     /// Poses `X_NB` of all bodies.
     #[inline(always)]
     pub fn poses(&self) -> PerBody<Pose<T>, J> {
-        let mut links = self.link_poses(&self.state.X_NB);
+        let mut X_NB = PerBody::filled(self.state.X_NB);
         for j in self.robot.joints() {
-            links[j].rotation = links[j].rotation * self.robot.link(j).R_LB;
+            X_NB.links[j] = self.X_NB(BodyId::Link(j));
         }
-        PerBody { base: self.state.X_NB, links }
+        X_NB
+    }
+    /// Twists of the links at their origins, base axes (rad/s, m/s).
+    #[inline(always)]
+    pub(crate) fn link_twists(&self) -> SpatialVelocity<[T; J]> {
+        let mut V: SpatialVelocity<[T; J]> = Rows::zero_rows();
+        let (robot, posture) = (self.robot, &self.posture);
+        robot.base_to_tips(self.state.V_NB_B, &mut V, |j, V_P: SpatialVelocity<T>| {
+            let S = robot.subspace_of(j, posture.axis_of(j));
+            V_P.shifted_by(posture.p_PL_B.at(j)) + S * self.state.v.at(j)
+        });
+        V
     }
     /// Turning rate `w_NB_B` of a body (rad/s).
     #[inline(always)]
@@ -114,17 +73,23 @@ impl<'a, T: Real, const J: usize> Kinematics<'a, T, J> {
     pub fn V_NB_B(&self, body: BodyId) -> SpatialVelocity<T> {
         match body {
             BodyId::Base => self.state.V_NB_B,
-            BodyId::Link(j) => self.robot.link(j).in_body(&self.link_twists()[body]),
+            BodyId::Link(j) => self.in_body(j, &self.link_twists().at(j)),
         }
     }
     /// Twists `V_NB_B` of all bodies (rad/s, m/s).
     #[inline(always)]
     pub fn twists(&self) -> PerBody<SpatialVelocity<T>, J> {
-        let mut V = self.link_twists();
+        let (mut V_NB_B, V) = (PerBody::filled(self.state.V_NB_B), self.link_twists());
         for j in self.robot.joints() {
-            V.links[j] = self.robot.link(j).in_body(&V.links[j]);
+            V_NB_B.links[j] = self.in_body(j, &V.at(j));
         }
-        V
+        V_NB_B
+    }
+    /// A twist in base axes, in the axes of the body that a joint carries.
+    #[inline(always)]
+    pub(crate) fn in_body(&self, j: usize, V: &SpatialVelocity<T>) -> SpatialVelocity<T> {
+        let R: Mat3<T> = self.posture.pose_of(self.robot, BodyId::Link(j)).rotation;
+        SpatialVelocity::new(R.transpose_mul(V.angular), R.transpose_mul(V.linear))
     }
     /// Pose `X_NF` of a frame.
     #[inline(always)]
@@ -148,19 +113,17 @@ impl<'a, T: Real, const J: usize> Kinematics<'a, T, J> {
     #[inline(always)]
     pub fn centre_of_mass_B(&self) -> (T, Vec3<T>) {
         // Mass and first moment of what each joint carries, tip to base.
-        let mut carried: PerBody<_, J> = PerBody::filled((T::zero(), Vec3::zero()));
-        for body in self.robot.bodies() {
-            let M = self.robot.inertia_in_link(body);
-            carried[body] = (M.mass, M.first_moment);
+        let (robot, posture) = (self.robot, &self.posture);
+        let mut moment: Vec3<[T; J]> = Rows::zero_rows();
+        for j in robot.joints() {
+            let h: Vec3<T> = robot.links.M_L.first_moment.at(j);
+            moment.put(j, posture.R_BL.at(j) * h);
         }
-        for j in self.robot.joints().rev() {
-            let ((mass, moment), seat) = (carried.links[j], self.seat(j));
-            let parent = &mut carried[self.robot.link(j).parent];
-            parent.0 += mass;
-            parent.1 += seat.to_parent(&moment) + seat.p_PL_P * mass;
-        }
-        let (mass, moment_B) = carried.base;
-        (mass, moment_B * (T::one() / mass))
+        let own = robot.inertia(BodyId::Base).first_moment;
+        let moment_B = robot.tips_to_base(own, &mut moment, |j, h: Vec3<T>| {
+            h + posture.p_PL_B.at(j) * robot.links.composite_mass.at(j)
+        });
+        (robot.mass(), moment_B * (T::one() / robot.mass()))
     }
     /// Origin of the joint `j` on its parent's side (at zero travel), `p_NF_N` (m).
     pub fn joint_origin(&self, j: usize) -> Vec3<T> {
@@ -169,11 +132,25 @@ impl<'a, T: Real, const J: usize> Kinematics<'a, T, J> {
     }
 }
 
-impl<T: Real> Link<T> {
-    /// A twist in the link's axes, in its body's.
+impl<T: Real, const J: usize> Robot<T, J> {
+    /// `R_LB`: from a body's axes to those that make its joint simple.
     #[inline(always)]
-    fn in_body(&self, V_L: &SpatialVelocity<T>) -> SpatialVelocity<T> {
-        let R_LB = &self.R_LB;
-        SpatialVelocity::new(R_LB.transpose_mul(V_L.angular), R_LB.transpose_mul(V_L.linear))
+    pub(crate) fn R_LB(&self, j: usize) -> Mat3<T> {
+        self.links.axes[crate::robot::within::<J>(j)].R_LB
+    }
+    /// The motion subspace `S` of a joint about its own origin, from its axis (–).
+    #[inline(always)]
+    pub(crate) fn subspace_of(&self, j: usize, axis: Vec3<T>) -> SpatialVelocity<T> {
+        self.links.subspace(Group::<OneByOne<T>>::of(j), axis)
+    }
+    /// 1 for each joint between the base and a body (–).
+    #[inline(always)]
+    pub fn way_to(&self, body: BodyId) -> [T; J] {
+        let (mut carries, mut at) = ([T::zero(); J], body);
+        while let BodyId::Link(j) = at {
+            carries.put(j, T::one());
+            at = self.joint(j).parent;
+        }
+        carries
     }
 }

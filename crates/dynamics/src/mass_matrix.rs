@@ -1,20 +1,9 @@
 //! The mass matrix, in the blocks that the theory names.
 
-use crate::robot::within;
-use crate::{BodyId, Kinematics};
+use crate::composite_inertia::compose_links;
+use crate::{BaseRows, BodyId, CompositeInertia, Kinematics, Posture, Robot, compose};
 use core::ops::Deref;
-use wrasse_spatial::{Pose, Real, SpatialForce, SpatialInertia, Work};
-
-/// The base's rows of `M(q)`: momentum of the whole system about Bo, in base axes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BaseRows<T, const J: usize> {
-    /// Number of joints, n.
-    pub count: usize,
-    /// Base block: inertia of the whole system, joints locked, about Bo in base axes.
-    pub M_bb: SpatialInertia<T>,
-    /// Columns of the coupling block: momentum about Bo, in base axes, per unit joint rate.
-    pub M_bj: [SpatialForce<T>; J],
-}
+use wrasse_spatial::{At, Group, Layout, Real, SpatialForce, kernel};
 
 /// `M(q)` in blocks; rows and columns ordered `[w_NB_B; v_NB_B; q̇]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,121 +32,94 @@ impl<T, const J: usize> Deref for MassMatrix<T, J> {
 #[doc(alias = "crba")]
 #[inline]
 pub fn mass_matrix<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> MassMatrix<T, J> {
-    let mut M = MassMatrix::nothing(k.robot.joint_count());
-    T::apart(AllRows { k, M: &mut M });
+    let mut M = MassMatrix::new();
+    fill(k.robot, &k.posture, &mut CompositeInertia::new(), &mut M);
     M
 }
 
 /// The base's rows alone: all that momentum needs.
 #[inline]
 pub fn base_rows<T: Real, const J: usize>(k: &Kinematics<'_, T, J>) -> BaseRows<T, J> {
-    let mut rows = BaseRows::nothing(k.robot.joint_count());
-    T::apart(RowsOfBase { k, rows: &mut rows });
+    let mut rows = BaseRows::new();
+    compose(k.robot, &k.posture, &mut CompositeInertia::new(), &mut rows);
     rows
 }
 
-/// The mass matrix as a piece of work, into a place that is zero.
-struct AllRows<'a, T, const J: usize> {
-    k: &'a Kinematics<'a, T, J>,
-    M: &'a mut MassMatrix<T, J>,
-}
-
-impl<T: Real, const J: usize> Work for AllRows<'_, T, J> {
-    type Out = ();
-    #[inline(always)]
-    fn run(self) {
-        let Self { k, M } = self;
-        let mut carried = [SpatialInertia::zero(); J];
-        M.base.M_bb = compose(k, &mut carried);
-        for j in k.robot.joints() {
-            let link = k.robot.link(j);
-            let mut F = link.momentum(&carried[j]);
-            M.M_jj[j][j] = link.project(&F);
-            let (mut seat, mut parent) = (k.seat(j), link.parent);
-            // The same momentum, as each link on the way to the base feels it.
-            while let BodyId::Link(p) = parent {
-                let p = within::<J>(p);
-                F = seat.force_to_parent(&F);
-                let coupling = k.robot.link(p).project(&F);
-                M.M_jj[j][p] = coupling;
-                M.M_jj[p][j] = coupling;
-                (seat, parent) = (k.seat(p), k.robot.link(p).parent);
-            }
-            M.base.M_bj[j] = seat.force_to_parent(&F);
+kernel! {
+    /// The mass matrix in a posture, into a place whose joint block is zero or of the same tree.
+    pub fn fill<L, T, J>(
+        robot: &Robot<T, J>,
+        posture: &Posture<T, J>,
+        composite: &mut CompositeInertia<T, J>,
+        M: &mut MassMatrix<T, J>,
+    ) {
+        let MassMatrix { base, M_jj } = M;
+        compose_links::<L, J>(robot, posture, composite, base);
+        for j in robot.joints() {
+            joint_row::<L, J>(robot, base, j, M_jj);
         }
     }
 }
 
-/// The base's rows as a piece of work, into a place that is zero.
-struct RowsOfBase<'a, T, const J: usize> {
-    k: &'a Kinematics<'a, T, J>,
-    rows: &'a mut BaseRows<T, J>,
-}
-
-impl<T: Real, const J: usize> Work for RowsOfBase<'_, T, J> {
-    type Out = ();
-    #[inline(always)]
-    fn run(self) {
-        let Self { k, rows } = self;
-        let mut carried = [SpatialInertia::zero(); J];
-        rows.M_bb = compose(k, &mut carried);
-        let base = Pose::identity();
-        let mut X_BL = [base; J];
-        for j in k.robot.joints() {
-            let link = k.robot.link(j);
-            X_BL[j] = k.seat(j).pose(link.parent.of(&base, &X_BL));
-            rows.M_bj[j] = X_BL[j].force_to_parent(&link.momentum(&carried[j]));
-        }
-    }
-}
-
-/// What each joint carries, joints behind it locked, in the link's axes, into a place that is zero;
-/// what the base does with all is returned.
+/// `M_ij = S_iᵀ M_bj`, for a joint j and those joints i of its arm that carry it.
 #[inline(always)]
-fn compose<T: Real, const J: usize>(
-    k: &Kinematics<'_, T, J>,
-    carried: &mut [SpatialInertia<T>; J],
-) -> SpatialInertia<T> {
-    let mut all = *k.robot.inertia(BodyId::Base);
-    for j in k.robot.joints().rev() {
-        let link = k.robot.link(j);
-        carried[j] += link.M_L;
-        let behind = k.seat(j).inertia_to_parent(&carried[j]);
-        *link.parent.of_mut(&mut all, carried) += behind;
+fn joint_row<L: Layout, const J: usize>(
+    robot: &Robot<L::One, J>,
+    base: &BaseRows<L::One, J>,
+    j: usize,
+    M_jj: &mut [[L::One; J]; J],
+) {
+    let (arm, F) = (robot.links.arm[j], base.M_bj.at(j));
+    let F = SpatialForce::new(L::all3(F.torque), L::all3(F.force));
+    let (first, row): (Group<L>, _) = (Group::of(arm.first), &mut M_jj[j]);
+    let mut i = first;
+    while i.first() <= j {
+        row.put(i, base.S.at(i).power(&F));
+        i = i.next();
     }
-    all
+    // Groups reach over the ends of the arm, into others.
+    let (before, behind) = (first.first()..arm.first, arm.end..i.first().min(robot.joint_count()));
+    for i in before.chain(behind) {
+        row[i.min(J - 1)] = L::One::zero();
+    }
+    if robot.links.forked[j] {
+        robot.leave_way_to(j, row);
+    }
+    let row = *row;
+    for i in arm.first..j.min(J) {
+        M_jj[i][j] = row[i];
+    }
 }
 
-impl<T: Real, const J: usize> BaseRows<T, J> {
-    /// All zero, of a robot with so many joints.
-    #[inline(always)]
-    fn nothing(count: usize) -> Self {
-        Self { count, M_bb: SpatialInertia::zero(), M_bj: [SpatialForce::zero(); J] }
-    }
-    /// `M_bj q̇`: momentum about Bo, in base axes, of the joint rates alone (N·m·s, N·s).
-    #[inline(always)]
-    pub fn momentum_of_rates(&self, qdot: &[T; J]) -> SpatialForce<T> {
-        let mut h = SpatialForce::zero();
-        for j in 0..self.count.min(J) {
-            h += self.M_bj[j] * qdot[j];
+impl<T: Real, const J: usize> Robot<T, J> {
+    /// Leave of a row only what stands at the joints that carry joint `j`.
+    fn leave_way_to(&self, j: usize, row: &mut [T; J]) {
+        let way = self.way_to(BodyId::Link(j));
+        for i in 0..j {
+            row[i] *= way[i];
         }
-        h
     }
 }
 
 impl<T: Real, const J: usize> MassMatrix<T, J> {
-    /// All zero, of a robot with so many joints.
+    /// All zero.
     #[inline(always)]
-    pub(crate) fn nothing(count: usize) -> Self {
-        Self { base: BaseRows::nothing(count), M_jj: [[T::zero(); J]; J] }
+    pub fn new() -> Self {
+        Self { base: BaseRows::new(), M_jj: [[T::zero(); J]; J] }
     }
     /// One element of the whole matrix; `row` and `column` in 0..6+n.
     pub fn element(&self, row: usize, column: usize) -> T {
         match (row.checked_sub(6), column.checked_sub(6)) {
             (None, None) => self.M_bb.to_matrix()[row][column],
-            (None, Some(j)) => self.M_bj[j].to_array()[row],
-            (Some(j), None) => self.M_bj[j].to_array()[column],
+            (None, Some(j)) => self.M_bj.at(j).to_array()[row],
+            (Some(j), None) => self.M_bj.at(j).to_array()[column],
             (Some(i), Some(j)) => self.M_jj[i][j],
         }
+    }
+}
+
+impl<T: Real, const J: usize> Default for MassMatrix<T, J> {
+    fn default() -> Self {
+        Self::new()
     }
 }

@@ -1,7 +1,7 @@
 //! What pushes a robot from outside.
 
-use crate::{BodyId, PerBody, Robot};
-use wrasse_spatial::{Real, SpatialForce};
+use crate::{PerBody, Posture, Robot};
+use wrasse_spatial::{At, Real, SpatialForce};
 
 /// Wrenches from outside: on each body at its origin, in its axes (N·m, N).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,18 +18,28 @@ impl<T: Real, const J: usize> Outside<'_, T, J> {
     pub fn nothing() -> Self {
         Self { base: SpatialForce::zero(), links: None }
     }
-    /// On a link, in the link's axes; `None` if no link is pushed.
+    /// On a link about its origin, in base axes.
     #[inline(always)]
-    pub(crate) fn on_link(&self, robot: &Robot<T, J>, j: usize) -> Option<SpatialForce<T>> {
-        let (F_B, R_LB) = (&self.links?[j], &robot.link(j).R_LB);
-        Some(SpatialForce::new(*R_LB * F_B.torque, *R_LB * F_B.force))
+    pub(crate) fn on_link(
+        robot: &Robot<T, J>,
+        posture: &Posture<T, J>,
+        j: usize,
+        F_B: &SpatialForce<T>,
+    ) -> SpatialForce<T> {
+        let turned = |v| posture.R_BL.at(j) * (robot.R_LB(j) * v);
+        SpatialForce::new(turned(F_B.torque), turned(F_B.force))
     }
-    /// The same on any body.
+    /// Take the wrenches on the links off what the links need; about their origins, base axes.
     #[inline(always)]
-    pub(crate) fn on(&self, robot: &Robot<T, J>, body: BodyId) -> Option<SpatialForce<T>> {
-        match body {
-            BodyId::Base => Some(self.base),
-            BodyId::Link(j) => self.on_link(robot, j),
+    pub(crate) fn take_off(
+        &self,
+        robot: &Robot<T, J>,
+        posture: &Posture<T, J>,
+        F: &mut SpatialForce<[T; J]>,
+    ) {
+        let Some(links) = self.links else { return };
+        for (j, F_B) in robot.joints().zip(links) {
+            F.put(j, F.at(j) - Self::on_link(robot, posture, j, F_B));
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Equations (3) and (4) of the paper as printed, kept for comparison. The exact quantities are in
 //! `reaction.rs`.
 
-use crate::jacobian::spatial_accelerations;
+use crate::jacobian::accelerations;
 use crate::{BodyId, GeneralizedVelocity, Kinematics};
 use wrasse_spatial::{Real, Vec3};
 
@@ -30,7 +30,7 @@ pub fn printed_reaction<T: Real, const J: usize>(
     nudot: &GeneralizedVelocity<T, J>,
     root: usize,
 ) -> PrintedReaction<T> {
-    let (A_NB_B, V_NB_B, X_NB) = (spatial_accelerations(k, nudot), k.twists(), k.poses());
+    let X_NB = k.poses();
     let (mut F_T, mut N_T) = (Vec3::zero(), Vec3::zero());
     let (mut mass, mut moment) = (T::zero(), Vec3::zero());
     for j in k.robot.joints() {
@@ -39,11 +39,13 @@ pub fn printed_reaction<T: Real, const J: usize>(
             continue;
         }
         let (M, I) = (k.robot.inertia(body), *k.robot.inertia_of_parts(body));
-        let (X_NB, V, A) = (&X_NB[body], V_NB_B[body], A_NB_B[body]);
-        let (w, wdot) = (V.angular, A.angular);
-        // m times the classical acceleration of Bcm, from m and the first moment alone.
+        let (X_NB, (w, A)) = (&X_NB[body], accelerations(k, nudot, body));
+        let R = k.posture.pose_of(k.robot, body).rotation;
+        let turned = |v| R.transpose_mul(v);
+        let (w, wdot, a) = (turned(w), turned(A.angular), turned(A.linear));
+        // m times the acceleration of Bcm, from m and the first moment alone.
         let h = M.first_moment;
-        let m_a = (A.linear + w.cross(V.linear)) * M.mass + wdot.cross(h) + w.cross(w.cross(h));
+        let m_a = a * M.mass + wdot.cross(h) + w.cross(w.cross(h));
         F_T += X_NB.rotation * m_a;
         N_T += X_NB.rotation * (I * wdot + w.cross(I * w));
         mass += M.mass;

@@ -13,7 +13,7 @@ pub fn mount_reaction<T: Real, const J: usize>(
     j: usize,
 ) -> SpatialForce<T> {
     let X_NB = &k.X_NB(BodyId::Link(j));
-    let F_B = dynamics.F_B_B(k.robot, BodyId::Link(j));
+    let F_B = dynamics.F_B_B(k, BodyId::Link(j));
     let at_Bo = SpatialForce::new(X_NB.rotation * F_B.torque, X_NB.rotation * F_B.force);
     at_Bo.about(k.joint_origin(j) - X_NB.translation)
 }

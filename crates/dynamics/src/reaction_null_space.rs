@@ -1,13 +1,13 @@
 //! Reaction null space: joint motions that leave the base's attitude alone.
 
-use crate::{MassMatrix, Robot};
-use wrasse_spatial::{Real, Vec3};
+use crate::{BaseRows, Robot};
+use wrasse_spatial::{At, Real, Vec3};
 
 /// Columns of `H_w`: angular momentum about the system's centre of mass per joint rate, joints
 /// moving against a base that does not turn, base axes (N·m·s per rad/s or m/s).
-pub fn angular_momentum_per_rate<T: Real, const J: usize>(M: &MassMatrix<T, J>) -> [Vec3<T>; J] {
+pub fn angular_momentum_per_rate<T: Real, const J: usize>(M: &BaseRows<T, J>) -> [Vec3<T>; J] {
     let p_BScm_B = M.M_bb.centre_of_mass();
-    M.M_bj.map(|h_B| h_B.about(p_BScm_B).torque)
+    core::array::from_fn(|j| M.M_bj.at(j).about(p_BScm_B).torque)
 }
 
 /// `(1 - H_w⁺ H_w) ξ`: the part of the joint rates `ξ` that does not turn the base.
@@ -20,7 +20,7 @@ pub fn angular_momentum_per_rate<T: Real, const J: usize>(M: &MassMatrix<T, J>) 
 /// [`Nenchev1992`](wrasse_spatial::references::Nenchev1992).
 pub fn reaction_null_space<T: Real, const J: usize>(
     robot: &Robot<T, J>,
-    M: &MassMatrix<T, J>,
+    M: &BaseRows<T, J>,
     xi: &[T; J],
 ) -> [T; J] {
     let H_w = angular_momentum_per_rate(M);

@@ -1,7 +1,7 @@
 //! Joint dynamics with the base eliminated: free-floating, and with the attitude held.
 
 use crate::{GeneralizedForce, MassMatrix, Robot};
-use wrasse_spatial::Real;
+use wrasse_spatial::{At, Real};
 
 /// `τ = H q̈ + c` in the joints alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,11 +40,11 @@ pub fn free_floating_dynamics<T: Real, const J: usize>(
     let per_M_bb = M.M_bb.inverse();
     let recoil_of_bias = per_M_bb.velocity_of(&c.base);
     for j in robot.joints() {
-        let recoil = per_M_bb.velocity_of(&M.M_bj[j]);
+        let recoil = per_M_bb.velocity_of(&M.M_bj.at(j));
         for i in robot.joints() {
-            reduced.H[i][j] -= recoil.power(&M.M_bj[i]);
+            reduced.H[i][j] -= recoil.power(&M.M_bj.at(i));
         }
-        reduced.c[j] -= recoil_of_bias.power(&M.M_bj[j]);
+        reduced.c[j] -= recoil_of_bias.power(&M.M_bj.at(j));
     }
     reduced
 }
@@ -59,9 +59,9 @@ pub fn attitude_held_dynamics<T: Real, const J: usize>(
     let mut reduced = ReducedDynamics { H: M.M_jj, c: c.joints };
     let per_mass = T::one() / M.M_bb.mass;
     for j in robot.joints() {
-        let recoil = M.M_bj[j].force * per_mass;
+        let recoil = M.M_bj.at(j).force * per_mass;
         for i in robot.joints() {
-            reduced.H[i][j] -= recoil.dot(M.M_bj[i].force);
+            reduced.H[i][j] -= recoil.dot(M.M_bj.at(i).force);
         }
         reduced.c[j] -= recoil.dot(c.base.force);
     }

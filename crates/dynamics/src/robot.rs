@@ -1,6 +1,6 @@
 //! The robot: a checked, immutable tree of bodies; its state; the vectors that go with it.
 
-use crate::Link;
+use crate::link_rows::LinkRows;
 use core::fmt;
 use core::ops::{Index, IndexMut, Range};
 use wrasse_spatial::{
@@ -89,7 +89,7 @@ impl<T: Real> Joint<T> {
 
 /// What a body is made of.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Payload<T> {
+pub struct MassProperties<T> {
     /// Inertia about the frame it is attached to, in that frame's axes.
     pub M_F_F: SpatialInertia<T>,
     /// Sum of the inertias of its rigid parts, each about its own centre of mass, in the same axes
@@ -97,7 +97,7 @@ pub struct Payload<T> {
     pub I_parts_F: Sym3<T>,
 }
 
-impl<T: Real> Payload<T> {
+impl<T: Real> MassProperties<T> {
     /// One rigid part: mass (kg), centre of mass `p_FFcm_F` (m), central inertia (kg·m²).
     pub fn from_central(mass: T, p_FFcm_F: Vec3<T>, I_FFcm_F: Sym3<T>) -> Self {
         Self { M_F_F: SpatialInertia::from_central(mass, p_FFcm_F, I_FFcm_F), I_parts_F: I_FFcm_F }
@@ -180,12 +180,14 @@ impl<E, const J: usize> IndexMut<BodyId> for PerBody<E, J> {
 }
 
 /// A tree of bodies on a free-flying base: at most `J` joints, parents before children.
+///
+/// The algorithms work on its links in rows, four at a time where `J` is a multiple of four.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Robot<T, const J: usize> {
     pub(crate) count: usize,
     pub(crate) joints: [Joint<T>; J],
-    pub(crate) matter: PerBody<Payload<T>, J>,
-    pub(crate) links: [Link<T>; J],
+    pub(crate) bodies: PerBody<MassProperties<T>, J>,
+    pub(crate) links: LinkRows<T, J>,
 }
 
 /// Why a robot cannot be built.
@@ -228,32 +230,34 @@ impl<T: Scalar, const J: usize> Robot<T, J> {
     ///
     /// # Errors
     /// If there are more than `J` joints, or a parent does not come before its child.
-    pub fn new(base: Payload<T>, links: &[(Joint<T>, Payload<T>)]) -> Result<Self, RobotError> {
+    pub fn new(
+        base: MassProperties<T>,
+        links: &[(Joint<T>, MassProperties<T>)],
+    ) -> Result<Self, RobotError> {
         if links.len() > J {
             return Err(RobotError::TooManyJoints { found: links.len(), capacity: J });
         }
         let z = Vec3::from_array([T::zero(), T::zero(), T::one()]);
         let idle = Joint::new(BodyId::Base, JointKind::Revolute, Pose::identity(), z);
-        let nothing = Payload::default();
         let mut robot = Self {
             count: links.len(),
             joints: [idle; J],
-            matter: PerBody::filled(nothing),
-            links: [Link::new(&idle, &nothing, &Mat3::identity(), None); J],
+            bodies: PerBody::filled(MassProperties::default()),
+            links: LinkRows::empty(),
         };
-        robot.matter.base = base;
-        for (j, (joint, matter)) in links.iter().enumerate() {
-            let R_PBp = match joint.parent {
-                BodyId::Base => Mat3::identity(),
-                BodyId::Link(p) if p < j => robot.link(p).R_LB,
-                BodyId::Link(_) => return Err(RobotError::ParentAfterChild { joint: j }),
-            };
+        robot.bodies.base = base;
+        for (j, (joint, body)) in links.iter().enumerate() {
+            if matches!(joint.parent, BodyId::Link(p) if p >= j) {
+                return Err(RobotError::ParentAfterChild { joint: j });
+            }
             robot.joints[j] = *joint;
-            robot.matter.links[j] = *matter;
+            robot.bodies.links[j] = *body;
             let next = links.iter().find(|(next, _)| next.parent == BodyId::Link(j));
             let next_B = next.map(|(next, _)| next.X_PB_zero.rotation * next.axis_B);
-            robot.links[j] = Link::new(joint, matter, &R_PBp, next_B);
+            robot.links.place(j, joint, next_B);
         }
+        robot.links.number(&robot.joints, robot.count);
+        robot.weigh();
         Ok(robot)
     }
 }
@@ -274,53 +278,38 @@ impl<T: Real, const J: usize> Robot<T, J> {
     pub fn joint(&self, j: usize) -> &Joint<T> {
         &self.joints[within::<J>(j)]
     }
-    /// A link in the axes that its joint is simple in.
-    #[inline(always)]
-    pub fn link(&self, j: usize) -> &Link<T> {
-        &self.links[within::<J>(j)]
-    }
     /// `M_B_B` of a body about its origin.
     #[inline(always)]
     pub fn inertia(&self, body: BodyId) -> &SpatialInertia<T> {
-        &self.matter[body].M_F_F
+        &self.bodies[body].M_F_F
     }
-    /// A vector in a body's axes, in the link's; the base's are its own.
+    /// Whether any joint slides.
     #[inline(always)]
-    pub(crate) fn in_link(&self, body: BodyId, of_body: Vec3<T>) -> Vec3<T> {
-        match body {
-            BodyId::Base => of_body,
-            BodyId::Link(j) => self.link(j).R_LB * of_body,
-        }
-    }
-    /// Inertia of a body about its origin: a link's in the link's axes, the base's in its own.
-    #[inline(always)]
-    pub(crate) fn inertia_in_link(&self, body: BodyId) -> &SpatialInertia<T> {
-        match body {
-            BodyId::Base => &self.matter.base.M_F_F,
-            BodyId::Link(j) => &self.link(j).M_L,
-        }
+    pub(crate) fn any_slides(&self) -> bool {
+        self.links.slide
     }
     /// Sum of the central inertias of the parts that are fixed together in this body (kg·m²).
     #[inline(always)]
     pub fn inertia_of_parts(&self, body: BodyId) -> &Sym3<T> {
-        &self.matter[body].I_parts_F
+        &self.bodies[body].I_parts_F
     }
     /// Total mass (kg).
+    #[inline(always)]
     pub fn mass(&self) -> T {
-        let links = self.joints().map(|j| self.matter.links[j].M_F_F.mass);
-        links.fold(self.matter.base.M_F_F.mass, |sum, m| sum + m)
+        self.links.total_mass
     }
     /// The same robot holding a payload: its mass properties merge with the body of the frame.
     #[must_use]
-    pub fn with_payload(&self, frame: &Frame<T>, payload: &Payload<T>) -> Self {
+    pub fn with_payload(&self, frame: &Frame<T>, payload: &MassProperties<T>) -> Self {
         let mut robot = *self;
-        let body = &mut robot.matter[frame.body];
+        let body = &mut robot.bodies[frame.body];
         *body = body.and(&payload.seen_from(&frame.X_BF));
-        let matter = *body;
-        if let BodyId::Link(j) = frame.body {
-            robot.links[within::<J>(j)].weigh(&matter);
-        }
+        robot.weigh();
         robot
+    }
+    /// Take the mass properties of the bodies into the rows of links.
+    pub(crate) fn weigh(&mut self) {
+        self.links.weigh(&self.joints, &self.bodies, self.count);
     }
     /// All bodies, base first.
     pub fn bodies(&self) -> impl Iterator<Item = BodyId> + use<T, J> {
@@ -347,7 +336,7 @@ impl<T: Real, const J: usize> Robot<T, J> {
 impl<const J: usize> Robot<f64, J> {
     /// The same robot over another scalar.
     pub fn cast<T: Real>(&self) -> Robot<T, J> {
-        let payload = |p: &Payload<f64>| Payload {
+        let properties = |p: &MassProperties<f64>| MassProperties {
             M_F_F: SpatialInertia::from_f64(&p.M_F_F),
             I_parts_F: Sym3::from_f64(p.I_parts_F),
         };
@@ -359,11 +348,11 @@ impl<const J: usize> Robot<f64, J> {
                 X_PB_zero: Pose::from_f64(&j.X_PB_zero),
                 axis_B: Vec3::from_f64(j.axis_B),
             }),
-            matter: PerBody {
-                base: payload(&self.matter.base),
-                links: core::array::from_fn(|j| payload(&self.matter.links[j])),
+            bodies: PerBody {
+                base: properties(&self.bodies.base),
+                links: core::array::from_fn(|j| properties(&self.bodies.links[j])),
             },
-            links: self.links.map(|link| link.cast()),
+            links: self.links.cast(),
         }
     }
 }
@@ -426,9 +415,9 @@ mod tests {
     use std::{string::ToString, vec, vec::Vec};
     use wrasse_spatial::vec3;
 
-    fn on(parent: BodyId) -> (Joint<f64>, Payload<f64>) {
+    fn on(parent: BodyId) -> (Joint<f64>, MassProperties<f64>) {
         let joint = Joint::new(parent, JointKind::Revolute, Pose::identity(), vec3(0.0, 0.0, 2.0));
-        (joint, Payload::from_central(1.0, Vec3::zero(), Sym3::diagonal(1.0, 1.0, 1.0)))
+        (joint, MassProperties::from_central(1.0, Vec3::zero(), Sym3::diagonal(1.0, 1.0, 1.0)))
     }
 
     #[test]
@@ -437,14 +426,15 @@ mod tests {
             (vec![on(BodyId::Link(0))], 0),
             (vec![on(BodyId::Base), on(BodyId::Link(2)), on(BodyId::Base)], 1),
         ] {
-            let found = Robot::<f64, 4>::new(Payload::default(), &links);
+            let found = Robot::<f64, 4>::new(MassProperties::default(), &links);
             assert_eq!(found.unwrap_err(), RobotError::ParentAfterChild { joint });
         }
     }
 
     #[test]
     fn more_joints_than_there_is_room_for_are_refused() {
-        let error = Robot::<f64, 2>::new(Payload::default(), &[on(BodyId::Base); 3]).unwrap_err();
+        let error =
+            Robot::<f64, 2>::new(MassProperties::default(), &[on(BodyId::Base); 3]).unwrap_err();
         assert_eq!(error, RobotError::TooManyJoints { found: 3, capacity: 2 });
         assert_eq!(error.to_string(), "3 moving joints, at most 2 fit");
     }
@@ -453,7 +443,7 @@ mod tests {
     fn a_path_leads_from_the_tip_to_the_joint_on_the_base() {
         let links =
             [BodyId::Base, BodyId::Base, BodyId::Link(0), BodyId::Link(2), BodyId::Link(1)].map(on);
-        let robot = Robot::<f64, 5>::new(Payload::default(), &links).unwrap();
+        let robot = Robot::<f64, 5>::new(MassProperties::default(), &links).unwrap();
         assert_eq!(robot.path_to_base(BodyId::Link(3)).collect::<Vec<_>>(), [3, 2, 0]);
         let roots = robot.bodies().map(|body| robot.chain_root(body)).collect::<Vec<_>>();
         assert_eq!(roots, [None, Some(0), Some(1), Some(0), Some(0), Some(1)]);

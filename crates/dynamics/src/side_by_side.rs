@@ -1,6 +1,6 @@
 //! Robots of one build and their states, side by side in lanes.
 
-use crate::{Dynamics, Generalized, Payload, PerBody, Robot, State};
+use crate::{Dynamics, Generalized, MassProperties, PerBody, Robot, State};
 use wrasse_spatial::{Instructions, Lanes, SideBySide};
 
 impl<I: Instructions, const N: usize, const J: usize> Robot<Lanes<N, I>, J> {
@@ -14,27 +14,25 @@ impl<I: Instructions, const N: usize, const J: usize> Robot<Lanes<N, I>, J> {
             return None;
         }
         let mut robot: Self = first.cast();
-        robot.matter = PerBody {
-            base: Payload::side_by_side(&|i| of[i].matter.base),
-            links: SideBySide::side_by_side(&|i| of[i].matter.links),
+        robot.bodies = PerBody {
+            base: MassProperties::side_by_side(&|i| of[i].bodies.base),
+            links: SideBySide::side_by_side(&|i| of[i].bodies.links),
         };
-        for j in first.joints() {
-            robot.links[j].M_L = SideBySide::side_by_side(&|i| of[i].links[j].M_L);
-        }
+        robot.weigh();
         Some(robot)
     }
 }
 
-impl<I: Instructions, const N: usize> SideBySide<N> for Payload<Lanes<N, I>> {
-    type Alone = Payload<f64>;
-    fn side_by_side(of: &impl Fn(usize) -> Payload<f64>) -> Self {
+impl<I: Instructions, const N: usize> SideBySide<N> for MassProperties<Lanes<N, I>> {
+    type Alone = MassProperties<f64>;
+    fn side_by_side(of: &impl Fn(usize) -> MassProperties<f64>) -> Self {
         Self {
             M_F_F: SideBySide::side_by_side(&|i| of(i).M_F_F),
             I_parts_F: SideBySide::side_by_side(&|i| of(i).I_parts_F),
         }
     }
-    fn lane(&self, i: usize) -> Payload<f64> {
-        Payload { M_F_F: self.M_F_F.lane(i), I_parts_F: self.I_parts_F.lane(i) }
+    fn lane(&self, i: usize) -> MassProperties<f64> {
+        MassProperties { M_F_F: self.M_F_F.lane(i), I_parts_F: self.I_parts_F.lane(i) }
     }
 }
 
@@ -80,7 +78,8 @@ mod tests {
     use wrasse_spatial::{Pose, Sym3, Vec3, vec3};
 
     fn robot(mass: f64, axis: Vec3<f64>) -> Robot<f64, 2> {
-        let matter = Payload::from_central(mass, Vec3::zero(), Sym3::diagonal(1.0, 2.0, 3.0));
+        let matter =
+            MassProperties::from_central(mass, Vec3::zero(), Sym3::diagonal(1.0, 2.0, 3.0));
         let joint = Joint::new(BodyId::Base, JointKind::Revolute, Pose::identity(), axis);
         Robot::new(matter, &[(joint, matter)]).unwrap()
     }

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use std::{array, fs, path::PathBuf};
 use toml::{Table, Value};
 use wrasse_dynamics::{
-    BodyId, Frame, Joint, JointKind, Payload, Robot, State, barycentric_vectors,
+    BodyId, Frame, Joint, JointKind, MassProperties, Robot, State, barycentric_vectors,
     generalized_jacobian, jacobian, kinematics, mass_matrix,
 };
 use wrasse_spatial::{Pose, Sym3, Vec3, vec3};
@@ -54,7 +54,11 @@ impl Chain {
         let along = |x: f64| vec3(x, 0.0, 0.0);
         let matter = |i: usize| {
             let I = self.inertia[i];
-            Payload::from_central(self.mass[i], along(self.before[i]), Sym3::diagonal(I, I, I))
+            MassProperties::from_central(
+                self.mass[i],
+                along(self.before[i]),
+                Sym3::diagonal(I, I, I),
+            )
         };
         let at = |x: f64| Pose { translation: along(x), ..Pose::identity() };
         let turning =
@@ -72,7 +76,7 @@ impl Chain {
         let (robot, frame) = self.robot();
         let state = State { q, ..State::default() };
         let k = kinematics(&robot, &state);
-        let columns = generalized_jacobian(&jacobian(&k, &frame), &mass_matrix(&k));
+        let columns = generalized_jacobian(&jacobian(&k, &frame), &mass_matrix(&k)).columns();
         [columns.map(|c| c.linear.x), columns.map(|c| c.linear.y)]
     }
     /// Distance of the tip from the system's centre of mass (m).
@@ -219,7 +223,7 @@ fn the_posture_is_regular_on_a_fixed_base() {
     let (robot, frame) = chain().robot();
     let q2 = chain().singular_q2(-65_f64.to_radians(), -0.5, 0.0);
     let state = State { q: [-65_f64.to_radians(), q2], ..State::default() };
-    let [a, b] = jacobian(&kinematics(&robot, &state), &frame).joints.map(|c| c.linear);
+    let [a, b] = jacobian(&kinematics(&robot, &state), &frame).joints.columns().map(|c| c.linear);
     let fixed = a.x * b.y - b.x * a.y;
     assert!((fixed - q2.sin()).abs() < 1e-15, "{fixed}, not {}", q2.sin());
     assert!(fixed.abs() > 0.19);

@@ -2,7 +2,7 @@
 
 use crate::complaint::{ONLY, Refused, WrasseStatus, each, finite, refused};
 use core::ffi::CStr;
-use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, Payload, Robot, RobotError};
+use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, MassProperties, Robot, RobotError};
 use wrasse_spatial::{Mat3, Pose, Real, Scalar, Sym3, Vec3, vec3};
 
 /// Most links that a robot can have.
@@ -74,10 +74,10 @@ fn body_of(link: i32) -> BodyId {
     usize::try_from(link).map_or(BodyId::Base, BodyId::Link)
 }
 
-fn payload<T: Real>(body: &WrasseBody) -> Payload<T> {
+fn payload<T: Real>(body: &WrasseBody) -> MassProperties<T> {
     let centre = vector(body.centre_of_mass);
     let [xx, yy, zz, xy, xz, yz] = body.inertia.map(T::from_f64);
-    Payload::from_central(T::from_f64(body.mass), centre, Sym3 { xx, xy, xz, yy, yz, zz })
+    MassProperties::from_central(T::from_f64(body.mass), centre, Sym3 { xx, xy, xz, yy, yz, zz })
 }
 
 fn joint<T: Real>(joint: &WrasseJoint) -> Joint<T> {

@@ -2,6 +2,7 @@
 #![allow(unsafe_code, reason = "the functions are called as C calls them")]
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 #![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
+#![allow(clippy::large_stack_arrays, reason = "the memory that C gives")]
 
 #[path = "../../../embedded/golden/src/atlas_class.rs"]
 #[allow(clippy::unreadable_literal, reason = "a table made by a test")]

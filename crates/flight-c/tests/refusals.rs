@@ -1,6 +1,7 @@
 //! Bad input from C is refused with the place, the finding and the expectation, and changes nothing.
 #![allow(unsafe_code, reason = "the functions are called as C calls them")]
 #![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
+#![allow(clippy::large_stack_arrays, reason = "the memory that C gives")]
 
 use std::ffi::{CStr, c_char};
 use std::ptr::{null, null_mut};

@@ -1,13 +1,13 @@
 //! How the base is believed to answer joint motion that is given.
 
+use crate::computed_torque::recoil;
 use crate::law::ArmLaw;
-use crate::locked::Locked;
-use crate::posture::Posture;
 use crate::resolved_motion::{Belief, Resolved, ResolvedMotion};
-use wrasse_dynamics::{BodyId, Robot};
-use wrasse_spatial::{
-    Real, SpatialAcceleration, SpatialForce, SpatialInertia, SpatialMomentum, SpatialVelocity, Vec3,
+use wrasse_dynamics::{
+    BaseMode, BaseRows, Configuration, Generalized, InverseDynamics, Outside, Robot,
+    drive_configuration,
 };
+use wrasse_spatial::{Real, SpatialInertia, SpatialMomentum, SpatialVelocity, Vec3};
 
 /// Base motion that answers given joint rates and accelerations, by the law.
 pub fn answered_motion<T: Real, const J: usize>(
@@ -17,79 +17,72 @@ pub fn answered_motion<T: Real, const J: usize>(
     qdot: &[T; J],
     qddot: &[T; J],
 ) -> ResolvedMotion<T, J> {
-    let posture = Posture::new(robot, &belief.q);
-    answered_motion_in(
-        robot,
-        law,
-        &posture,
-        &Locked::new(robot, &belief.q, qdot),
-        belief,
-        qdot,
-        qddot,
-    )
+    answered_motion_in(robot, law, &Configuration::at(robot, &belief.q), belief, qdot, qddot)
 }
 
-/// The same in a posture that is at hand, with what the joints' motion adds to the locked system.
+/// The same in a configuration that is at hand.
 #[inline(always)]
 pub(crate) fn answered_motion_in<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     law: ArmLaw,
-    posture: &Posture<T, J>,
-    locked: &Locked<T>,
+    configuration: &Configuration<T, J>,
     belief: &Belief<T, J>,
     qdot: &[T; J],
     qddot: &[T; J],
 ) -> ResolvedMotion<T, J> {
-    let V_NB_B = answered_twist(law, locked, &belief.h_Scm_B());
-    let F = posture.forces(robot, &posture.matter(robot), &V_NB_B, qdot, qddot);
-    let A_NB_B = recoil(law, &locked.M, &on_base(robot, &V_NB_B, &F));
+    let M = &configuration.base;
+    let V_NB_B = answered_twist(law, &M.M_bb, &M.momentum_of_rates(qdot), &belief.h_Scm_B());
+    let (still, mut motion) = (SpatialVelocity::zero(), InverseDynamics::new());
+    let nu = Generalized { base: V_NB_B, joints: *qdot };
+    let nudot = Generalized { base: still, joints: *qddot };
+    drive_configuration(robot, configuration, &nu, &nudot, Outside::nothing(), &mut motion);
+    let A_NB_B = recoil(law.base(), M, &motion.force.base);
     ResolvedMotion { rate: Resolved { qdot: *qdot, V_NB_B }, qddot: *qddot, A_NB_B }
 }
 
-/// Base twist `V_NB_B` by which the momentum is kept, as far as the law asks for that.
+/// Base twist `V_NB_B` by which the momentum is kept, as far as the law asks for that; `h_rates` is
+/// that of the joint rates alone, about Bo in base axes.
 #[inline(always)]
 pub(crate) fn answered_twist<T: Real>(
     law: ArmLaw,
-    locked: &Locked<T>,
+    M_bb: &SpatialInertia<T>,
+    h_rates: &SpatialMomentum<T>,
     h_Scm_B: &SpatialMomentum<T>,
 ) -> SpatialVelocity<T> {
-    match law {
-        ArmLaw::Terrestrial => SpatialVelocity::zero(),
-        ArmLaw::AttitudeHeld => {
-            let push = h_Scm_B.force - locked.h.force;
-            SpatialVelocity::new(Vec3::zero(), push * (T::one() / locked.M.mass))
+    match law.base() {
+        BaseMode::Fixed => SpatialVelocity::zero(),
+        BaseMode::AttitudeHeld => {
+            let push = h_Scm_B.force - h_rates.force;
+            SpatialVelocity::new(Vec3::zero(), push * (T::one() / M_bb.mass))
         }
-        ArmLaw::FreeFloating => {
-            locked.M.velocity_of(&(h_Scm_B.about(-locked.M.centre_of_mass()) - locked.h))
+        BaseMode::Free => {
+            let mobility = M_bb.inverse();
+            mobility.velocity_of(&(h_Scm_B.about(-mobility.p_cm) - *h_rates))
         }
     }
 }
 
-/// Force on the base about its origin (N·m, N) that holds it on its steady twist `V_NB_B` while the
-/// links take the forces `F`.
+/// Angular momentum of the joints' motion about the system's centre of mass (N·m·s, base axes), on a
+/// base that does not turn but gives way.
 #[inline(always)]
-pub(crate) fn on_base<T: Real, const J: usize>(
-    robot: &Robot<T, J>,
-    V_NB_B: &SpatialVelocity<T>,
-    F: &[SpatialForce<T>; J],
-) -> SpatialForce<T> {
-    let M = robot.inertia(BodyId::Base);
-    let own = V_NB_B.cross_force(&(*M * *V_NB_B));
-    robot.joints().fold(own, |sum, j| sum + F[j])
+pub(crate) fn swing_B<T: Real>(M_bb: &SpatialInertia<T>, h_rates: &SpatialMomentum<T>) -> Vec3<T> {
+    h_rates.about(M_bb.centre_of_mass()).torque
 }
 
-/// Acceleration of the base when the force that would hold it is not there, by the law.
+/// Total momentum about the system's centre of mass, inertial axes, as far as the law asks for it: all of
+/// it, its linear part, or nothing.
 #[inline(always)]
-pub(crate) fn recoil<T: Real>(
+pub(crate) fn momentum_for<T: Real, const J: usize>(
     law: ArmLaw,
-    whole: &SpatialInertia<T>,
-    holding: &SpatialForce<T>,
-) -> SpatialAcceleration<T> {
-    match law {
-        ArmLaw::Terrestrial => SpatialAcceleration::zero(),
-        ArmLaw::AttitudeHeld => {
-            SpatialAcceleration::new(Vec3::zero(), holding.force * (-T::one() / whole.mass))
-        }
-        ArmLaw::FreeFloating => -whole.velocity_of(holding),
-    }
+    M: &BaseRows<T, J>,
+    state: &wrasse_dynamics::State<T, J>,
+) -> SpatialMomentum<T> {
+    let h = M.momentum_of_rates(&state.v) + M.M_bb * state.V_NB_B;
+    let h = match law.base() {
+        BaseMode::Fixed => return SpatialMomentum::zero(),
+        BaseMode::AttitudeHeld => SpatialMomentum::new(Vec3::zero(), h.force),
+        BaseMode::Free => h.about(M.M_bb.centre_of_mass()),
+    };
+    let R_NB = &state.X_NB.rotation;
+    SpatialMomentum::new(*R_NB * h.torque, *R_NB * h.force)
 }

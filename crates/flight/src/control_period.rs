@@ -3,21 +3,19 @@
 //! What decides (phases, planning, estimators, steering) stands outside; it says what is asked, and
 //! here it is turned into set-points and torques.
 
-use crate::answered_motion::{answered_motion_in, answered_twist};
+use crate::answered_motion::{answered_motion_in, answered_twist, momentum_for, swing_B};
 use crate::computer::Setup;
 use crate::door::Axes;
 use crate::law::{ArmLaw, Measurement};
-use crate::locked::{Locked, momentum_for};
 use crate::period_command::{Told, told};
-use crate::posture::Posture;
 use crate::resolved_motion::{
     Assignment, Belief, JointUse, Resolved, ResolvedMotion, WantedMotion, resolved_motion_in,
 };
 use crate::trajectory::{JointSetPoint, ToolMotion};
-use wrasse_dynamics::{Robot, State};
+use wrasse_dynamics::{Configuration, Robot, State, configure};
 use wrasse_hardware::SetPoint;
 use wrasse_spatial::{
-    Mat3, Pose, Quat, Real, SpatialForce, SpatialMomentum, SpatialVelocity, Vec3, Work,
+    Mat3, Pose, Quat, Real, SpatialForce, SpatialInertia, SpatialMomentum, SpatialVelocity, Vec3,
 };
 
 /// What is asked of the arm at the end of a period.
@@ -71,6 +69,8 @@ pub struct PeriodMemory<T, const J: usize> {
     /// Whether the sensors were read once.
     pub(crate) started: bool,
     pub(crate) coasting: bool,
+    /// What the joint positions give in the middle of the coming period, as the sensed motion goes on.
+    pub(crate) middle: Configuration<T, J>,
 }
 
 impl<T: Real, const J: usize> Default for PeriodMemory<T, J> {
@@ -120,20 +120,24 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             surprise: SpatialVelocity::zero(),
             started: false,
             coasting: false,
+            middle: Configuration::new(),
         }
     }
 
     /// First half of a period: take from what is sensed what the laws may take.
     pub fn look(&mut self, robot: &Robot<T, J>, setup: &Setup<T, J>, sensed: &State<T, J>) {
-        T::apart(Look { memory: self, robot, setup, sensed });
-    }
-
-    #[inline(always)]
-    fn look_here(&mut self, robot: &Robot<T, J>, setup: &Setup<T, J>, sensed: &State<T, J>) {
+        // Torques are constant over the period, so its middle counts for them; and momentum stays, so
+        // it may be taken there too. Nothing goes on before the first period.
+        let middle = if self.started {
+            self.half_a_period_on(robot, sensed, setup.tuning.period)
+        } else {
+            *sensed
+        };
+        configure(robot, &middle.q, &mut self.middle);
         let measured = setup.measurement == Measurement::Base;
         if measured || !self.started {
             self.belief.X_NB = sensed.X_NB;
-            self.belief.h_Scm_N = momentum_for(setup.assignment.law, robot, sensed);
+            self.belief.h_Scm_N = momentum_for(setup.assignment.law, &self.middle.base, &middle);
         }
         if !self.started || self.coasting {
             self.start_from(robot, setup, sensed);
@@ -142,6 +146,24 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             self.surprise = sensed.V_NB_B - self.motion.rate.V_NB_B;
             self.motion.rate.V_NB_B = sensed.V_NB_B;
         }
+    }
+
+    /// What is sensed, moved on by half a period (s) with the accelerations that the law believes in.
+    #[inline(always)]
+    fn half_a_period_on(
+        &self,
+        robot: &Robot<T, J>,
+        sensed: &State<T, J>,
+        period: T,
+    ) -> State<T, J> {
+        let (mut middle, half) = (*sensed, T::from_f64(0.5) * period);
+        for j in robot.joints() {
+            let gain = self.motion.qddot[j] * half;
+            middle.q[j] += (sensed.v[j] + gain * T::from_f64(0.5)) * half;
+            middle.v[j] += gain;
+        }
+        middle.V_NB_B += self.motion.A_NB_B * half;
+        middle
     }
 
     /// Begin where the joints are, with the base moving as the law says: at the start, and as long
@@ -154,32 +176,22 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             self.now[j] = SetPoint { position: sensed.q[j], rate: sensed.v[j], ..self.now[j] };
         }
         let still = [T::zero(); J];
-        let (locked, X_BE) = self.answer(robot, setup, &sensed.v, &still);
-        self.swing_B = locked.swing_B();
+        let (end, X_BE) = self.answer(robot, setup, &sensed.v, &still);
+        self.swing_B = end.swing_B();
         self.reference = at_rest(self.belief.X_NB * X_BE);
     }
 
     /// The robot has become another one: take what is known of it anew.
     pub(crate) fn robot_changed(&mut self, robot: &Robot<T, J>, law: ArmLaw) {
         let believed = self.believed_state();
-        self.belief.h_Scm_N = momentum_for(law, robot, &believed);
-        self.swing_B = Locked::new(robot, &believed.q, &believed.v).swing_B();
+        let configuration = Configuration::at(robot, &believed.q);
+        let M = &configuration.base;
+        self.belief.h_Scm_N = momentum_for(law, M, &believed);
+        self.swing_B = swing_B(&M.M_bb, &M.momentum_of_rates(&believed.v));
     }
 
-    /// Second half: follow what is asked.
+    /// Second half: follow what is asked, from what the first half [looked](Self::look) at.
     pub fn act(
-        &mut self,
-        robot: &Robot<T, J>,
-        setup: &Setup<T, J>,
-        sensed: &State<T, J>,
-        asked: &Asked<T, J>,
-        tool_wrench_E: Option<&SpatialForce<T>>,
-    ) -> Told<T, J> {
-        T::apart(Act { memory: self, robot, setup, sensed, asked, tool_wrench_E })
-    }
-
-    #[inline(always)]
-    fn act_here(
         &mut self,
         robot: &Robot<T, J>,
         setup: &Setup<T, J>,
@@ -191,11 +203,10 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         let (from, began) = (self.belief, self.motion);
         let quat_NB = Quat::from_matrix(&from.X_NB.rotation);
         self.predict(robot, &quat_NB, period);
-        let (locked, rate_share) = self.follow(robot, setup, asked, (&from, &began));
+        let (end, rate_share) = self.follow(robot, setup, asked, (&from, &began));
         self.correct_base(&quat_NB, (&from, &began), period);
-        // The joints are not quite where they were when the base's answer was worked out.
         let (law, h_B) = (setup.assignment.law, self.belief.h_Scm_B());
-        self.motion.rate.V_NB_B = answered_twist(law, &locked, &h_B);
+        self.motion.rate.V_NB_B = answered_twist(law, &end.M_B, &end.h_rates_B, &h_B);
         let now = self.now;
         for j in robot.joints() {
             self.now[j] = SetPoint {
@@ -205,15 +216,15 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             };
             self.acceleration[j] = (self.now[j].rate - now[j].rate) / period;
         }
-        let swing_B = locked.swing_B();
+        let swing_B = end.swing_B();
         let reaction_B = (swing_B - self.swing_B) * (T::one() / period);
         self.swing_B = swing_B;
         self.coasting = matches!(asked, Asked::Coast);
         if self.coasting {
-            return Told::nothing(self.now, locked.M);
+            return Told::nothing(self.now, end.M_B);
         }
-        let inertia = (locked.M, reaction_B);
-        let told = told(robot, setup, sensed, (&now, &self.now), inertia, tool_wrench_E);
+        let (inertia, at) = ((end.M_B, reaction_B), (sensed, &self.middle));
+        let told = told(robot, setup, at, (&now, &self.now), inertia, tool_wrench_E);
         Told { rate_share, ..told }
     }
 
@@ -250,15 +261,15 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         setup: &Setup<T, J>,
         asked: &Asked<T, J>,
         began: (&Belief<T, J>, &ResolvedMotion<T, J>),
-    ) -> (Locked<T>, T) {
+    ) -> (PeriodEnd<T>, T) {
         let still = [T::zero(); J];
-        let locked = match asked {
+        let end = match asked {
             Asked::Tool { reference, axes, gain, gain_rate } => {
                 (self.reference, self.axes) = (*reference, *axes);
                 let joints = JointUse { gain: *gain, gain_rate: *gain_rate, ..setup.joints };
-                let share = T::apart(FollowTool { memory: self, robot, setup, joints: &joints });
+                let found = self.follow_tool(robot, setup, &joints);
                 self.correct_joints(robot, began, setup.tuning.period);
-                return (Locked::new(robot, &self.belief.q, &self.motion.rate.qdot), share);
+                return found;
             }
             Asked::Joints(at) => {
                 self.belief.q = at.q;
@@ -274,7 +285,7 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
                 self.answer(robot, setup, &rates, &still).0
             }
         };
-        (locked, T::one())
+        (end, T::one())
     }
 
     /// Joint motion that keeps the tool on its reference; the share of its rates that the rate limits
@@ -285,9 +296,9 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         robot: &Robot<T, J>,
         setup: &Setup<T, J>,
         joints: &JointUse<T, J>,
-    ) -> T {
-        let posture = Posture::new(robot, &self.belief.q);
-        let X_BE = posture.pose(robot, &setup.assignment.tool);
+    ) -> (PeriodEnd<T>, T) {
+        let configuration = Configuration::at(robot, &self.belief.q);
+        let X_BE = configuration.posture.pose(robot, &setup.assignment.tool);
         let X = match self.axes {
             Axes::Inertial => self.belief.X_NB * X_BE,
             Axes::Base => X_BE,
@@ -305,9 +316,9 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             Vdot_NE: self.reference.Vdot_NE_N - (error * back + surprise) * back,
         };
         let to = Assignment { axes: self.axes, ..setup.assignment };
-        let found = resolved_motion_in(robot, &to, &posture, &self.belief, &wanted, joints);
+        let found = resolved_motion_in(robot, &to, &configuration, &self.belief, &wanted, joints);
         self.motion = found.0;
-        found.1
+        (PeriodEnd::new(&configuration, &self.motion.rate.qdot), found.1)
     }
 
     /// Twist of the tool, at `X`, that the law did not expect.
@@ -365,23 +376,12 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         setup: &Setup<T, J>,
         qdot: &[T; J],
         qddot: &[T; J],
-    ) -> (Locked<T>, Pose<T>) {
-        T::apart(Answer { memory: self, robot, setup, qdot, qddot })
-    }
-
-    #[inline(always)]
-    fn answer_here(
-        &mut self,
-        robot: &Robot<T, J>,
-        setup: &Setup<T, J>,
-        qdot: &[T; J],
-        qddot: &[T; J],
-    ) -> (Locked<T>, Pose<T>) {
+    ) -> (PeriodEnd<T>, Pose<T>) {
         let law = setup.assignment.law;
-        let posture = Posture::new(robot, &self.belief.q);
-        let locked = Locked::new(robot, &self.belief.q, qdot);
-        self.motion = answered_motion_in(robot, law, &posture, &locked, &self.belief, qdot, qddot);
-        (locked, posture.pose(robot, &setup.assignment.tool))
+        let configuration = Configuration::at(robot, &self.belief.q);
+        self.motion = answered_motion_in(robot, law, &configuration, &self.belief, qdot, qddot);
+        let X_BE = configuration.posture.pose(robot, &setup.assignment.tool);
+        (PeriodEnd::new(&configuration, qdot), X_BE)
     }
 
     /// The same, and the tool's reference stays where that brings it.
@@ -392,79 +392,31 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         setup: &Setup<T, J>,
         qdot: &[T; J],
         qddot: &[T; J],
-    ) -> Locked<T> {
-        let (locked, X_BE) = self.answer(robot, setup, qdot, qddot);
+    ) -> PeriodEnd<T> {
+        let (end, X_BE) = self.answer(robot, setup, qdot, qddot);
         self.axes = Axes::Inertial;
         self.reference = at_rest(self.belief.X_NB * X_BE);
-        locked
+        end
     }
 }
 
-/// The first half of a period as a piece of work.
-struct Look<'a, T, const J: usize> {
-    memory: &'a mut PeriodMemory<T, J>,
-    robot: &'a Robot<T, J>,
-    setup: &'a Setup<T, J>,
-    sensed: &'a State<T, J>,
+/// What the vehicle is like at the end of a period.
+struct PeriodEnd<T> {
+    /// Inertia of the whole system with joints locked, about the base's origin in base axes.
+    M_B: SpatialInertia<T>,
+    /// Momentum of the joint rates alone, about the same (N·m·s, N·s).
+    h_rates_B: SpatialMomentum<T>,
 }
 
-impl<T: Real, const J: usize> Work for Look<'_, T, J> {
-    type Out = ();
+impl<T: Real> PeriodEnd<T> {
     #[inline(always)]
-    fn run(self) {
-        self.memory.look_here(self.robot, self.setup, self.sensed);
+    fn new<const J: usize>(at: &Configuration<T, J>, qdot: &[T; J]) -> Self {
+        Self { M_B: at.base.M_bb, h_rates_B: at.base.momentum_of_rates(qdot) }
     }
-}
-
-/// The second half.
-struct Act<'a, T, const J: usize> {
-    memory: &'a mut PeriodMemory<T, J>,
-    robot: &'a Robot<T, J>,
-    setup: &'a Setup<T, J>,
-    sensed: &'a State<T, J>,
-    asked: &'a Asked<T, J>,
-    tool_wrench_E: Option<&'a SpatialForce<T>>,
-}
-
-impl<T: Real, const J: usize> Work for Act<'_, T, J> {
-    type Out = Told<T, J>;
+    /// Angular momentum of the joints' motion on a base that does not turn (N·m·s, base axes).
     #[inline(always)]
-    fn run(self) -> Told<T, J> {
-        let Self { memory, robot, setup, sensed, asked, tool_wrench_E } = self;
-        memory.act_here(robot, setup, sensed, asked, tool_wrench_E)
-    }
-}
-
-/// Its part that follows a tool.
-struct FollowTool<'a, T, const J: usize> {
-    memory: &'a mut PeriodMemory<T, J>,
-    robot: &'a Robot<T, J>,
-    setup: &'a Setup<T, J>,
-    joints: &'a JointUse<T, J>,
-}
-
-impl<T: Real, const J: usize> Work for FollowTool<'_, T, J> {
-    type Out = T;
-    #[inline(always)]
-    fn run(self) -> T {
-        self.memory.follow_tool(self.robot, self.setup, self.joints)
-    }
-}
-
-/// Its part that lets the base answer.
-struct Answer<'a, T, const J: usize> {
-    memory: &'a mut PeriodMemory<T, J>,
-    robot: &'a Robot<T, J>,
-    setup: &'a Setup<T, J>,
-    qdot: &'a [T; J],
-    qddot: &'a [T; J],
-}
-
-impl<T: Real, const J: usize> Work for Answer<'_, T, J> {
-    type Out = (Locked<T>, Pose<T>);
-    #[inline(always)]
-    fn run(self) -> Self::Out {
-        self.memory.answer_here(self.robot, self.setup, self.qdot, self.qddot)
+    fn swing_B(&self) -> Vec3<T> {
+        swing_B(&self.M_B, &self.h_rates_B)
     }
 }
 

@@ -1,10 +1,9 @@
 //! The arm's reaction on the base, known before it is felt.
 
 use crate::law::Feedforward;
-use crate::newton_euler::{Sum, Swing};
 use wrasse_dynamics::{
-    BodyId, Generalized, PerBody, PrintedReaction, Robot, State, inverse_dynamics, kinematics,
-    printed_reaction,
+    BodyId, Configuration, Generalized, InverseDynamics, Outside, PerBody, PrintedReaction, Robot,
+    State, drive_configuration, inverse_dynamics, kinematics, printed_reaction,
 };
 use wrasse_hardware::SetPoint;
 use wrasse_spatial::{Real, SpatialForce, SpatialVelocity, Vec3};
@@ -33,8 +32,13 @@ pub fn feedforward_torque<T: Real, const J: usize>(
 
 #[inline(always)]
 fn exact<T: Real, const J: usize>(robot: &Robot<T, J>, joints: &[SetPoint<T>; J]) -> Vec3<T> {
-    let Sum { F, mass, first_moment } = Swing::new(robot, joints).base;
-    F.torque + first_moment.cross(F.force * (-T::one() / mass))
+    let configuration = Configuration::at(robot, &joints.map(|s| s.position));
+    let (still, mut motion) = (SpatialVelocity::zero(), InverseDynamics::new());
+    let nu = Generalized { base: still, joints: joints.map(|s| s.rate) };
+    let nudot = Generalized { base: still, joints: joints.map(|s| s.acceleration) };
+    drive_configuration(robot, &configuration, &nu, &nudot, Outside::nothing(), &mut motion);
+    let (F, M_bb) = (motion.force.base, configuration.base.M_bb);
+    F.torque + M_bb.first_moment.cross(F.force * (-T::one() / M_bb.mass))
 }
 
 fn printed<T: Real, const J: usize>(

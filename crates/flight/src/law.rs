@@ -1,5 +1,7 @@
 //! The choices that a mission makes: which laws, and what they may measure.
 
+use wrasse_dynamics::BaseMode;
+
 /// What an arm law takes the base for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ArmLaw {
@@ -9,6 +11,17 @@ pub enum ArmLaw {
     AttitudeHeld,
     /// Free to turn and to translate.
     FreeFloating,
+}
+
+impl ArmLaw {
+    /// The base that the law counts on.
+    pub fn base(self) -> BaseMode {
+        match self {
+            Self::Terrestrial => BaseMode::Fixed,
+            Self::AttitudeHeld => BaseMode::AttitudeHeld,
+            Self::FreeFloating => BaseMode::Free,
+        }
+    }
 }
 
 /// What the attitude control is told of the arm's motion before it is felt.

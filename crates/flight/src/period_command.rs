@@ -2,13 +2,13 @@
 
 use crate::attitude_control::attitude_acceleration;
 use crate::base_control::Actuation;
-use crate::computed_torque::{computed_torque, joint_feedback};
+use crate::computed_torque::{joint_feedback, law_effort};
 use crate::computer::Setup;
 use crate::coupling_inertia::CouplingInertia;
 use crate::feedforward::feedforward_torque;
 use crate::law::{ArmLaw, Feedforward};
 use crate::tool_wrench::against_tool_wrench;
-use wrasse_dynamics::{Robot, State};
+use wrasse_dynamics::{Configuration, Robot, State};
 use wrasse_hardware::{SetPoint, SetPointMotion};
 use wrasse_spatial::{Quat, Real, SpatialForce, SpatialInertia, Vec3};
 
@@ -109,7 +109,7 @@ impl<T: Real, const J: usize> Told<T, J> {
 pub(crate) fn told<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     setup: &Setup<T, J>,
-    sensed: &State<T, J>,
+    (sensed, at): (&State<T, J>, &Configuration<T, J>),
     (now, next): (&[SetPoint<T>; J], &[SetPoint<T>; J]),
     (M_B, reaction_B): (SpatialInertia<T>, Vec3<T>),
     tool_wrench_E: Option<&SpatialForce<T>>,
@@ -117,9 +117,11 @@ pub(crate) fn told<T: Real, const J: usize>(
     let (tuning, law) = (&setup.tuning, setup.assignment.law);
     let Middle { state: ahead, set_points: middle, acceleration } =
         Middle::new(robot, tuning.period, sensed, now, next);
-    let mut effort = computed_torque(robot, law, tuning, &ahead, &middle, &acceleration);
-    let coupling = CouplingInertia::new(robot, &ahead.q);
-    let feedback_B = coupling.reaction(&driven_feedback(robot, setup, &ahead, &middle));
+    let back = joint_feedback(robot, tuning, &ahead, &middle);
+    let qddot = core::array::from_fn(|j| acceleration[j] + back[j]);
+    let mut effort = law_effort(robot, law, at, (&ahead.V_NB_B, &ahead.v), &qddot);
+    let coupling = CouplingInertia::of(&at.base);
+    let feedback_B = coupling.reaction(&driven_feedback(robot, setup, back));
     // What holds the base against the joints as they are asked to move.
     let mut holding_B = reaction_B + feedback_B;
     let fed_forward_B = match setup.base.feedforward {
@@ -172,10 +174,8 @@ pub(crate) fn told<T: Real, const J: usize>(
 fn driven_feedback<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     setup: &Setup<T, J>,
-    sensed: &State<T, J>,
-    now: &[SetPoint<T>; J],
+    mut back: [T; J],
 ) -> [T; J] {
-    let mut back = joint_feedback(robot, &setup.tuning, sensed, now);
     for j in robot.joints() {
         if setup.position_driven[j] {
             back[j] = T::zero();

@@ -2,14 +2,14 @@
 //! believes the base to answer.
 
 use crate::Axes;
-use crate::base_answer::{BaseAnswer, Carried, base_answer, base_answer_rate};
 use crate::damped_inverse::DampedInverse;
 use crate::law::{ArmLaw, Task};
-use crate::posture::{Posture, of_body};
 use core::array;
-use wrasse_dynamics::{BodyId, Frame, Robot};
+use wrasse_dynamics::{
+    BaseResponse, BodyId, Configuration, Frame, Robot, base_response, base_response_rate,
+};
 use wrasse_spatial::{
-    Mat3, Pose, Real, SpatialAcceleration, SpatialMomentum, SpatialVelocity, Vec3,
+    At, Mat3, Pose, Real, SpatialAcceleration, SpatialMomentum, SpatialVelocity, Vec3,
 };
 
 /// What is asked of the arm: which point, in which axes, how much of its motion, by which law.
@@ -101,7 +101,7 @@ struct LawJacobian<'a, T, const J: usize> {
     columns: [SpatialVelocity<T>; J],
     /// Twist that no joint causes.
     drift: SpatialVelocity<T>,
-    answer: &'a BaseAnswer<T, J>,
+    response: &'a BaseResponse<T, J>,
 }
 
 impl<'a, T: Real, const J: usize> LawJacobian<'a, T, J> {
@@ -109,18 +109,19 @@ impl<'a, T: Real, const J: usize> LawJacobian<'a, T, J> {
     fn new(
         robot: &Robot<T, J>,
         to: &Assignment<T>,
-        posture: &Posture<T, J>,
-        answer: &'a BaseAnswer<T, J>,
+        configuration: &Configuration<T, J>,
+        response: &'a BaseResponse<T, J>,
     ) -> Self {
-        let p_BE = posture.pose(robot, &to.tool).translation;
+        let p_BE = configuration.posture.pose(robot, &to.tool).translation;
         let (columns, drift) = ([SpatialVelocity::zero(); J], SpatialVelocity::zero());
         let carries = carrying(robot, to.tool.body);
-        let mut law = Self { p_BE, carries, columns, drift, answer };
+        let mut law = Self { p_BE, carries, columns, drift, response };
+        let S = &configuration.base.S;
         for j in robot.joints() {
-            law.columns[j] = law.total(to, j, &posture.S[j], &answer.per_rate[j]);
+            law.columns[j] = law.total(to, j, &S.at(j), &response.per_rate.at(j));
         }
         if to.axes == Axes::Inertial {
-            law.drift = law.answer.drift;
+            law.drift = law.response.drift;
         }
         law
     }
@@ -173,10 +174,9 @@ pub fn task_jacobian<T: Real, const J: usize>(
     to: &Assignment<T>,
     belief: &Belief<T, J>,
 ) -> [SpatialVelocity<T>; J] {
-    let posture = Posture::new(robot, &belief.q);
-    let carried = Carried::new(to.law, robot, &posture);
-    let answer = base_answer(to.law, robot, &carried, &belief.h_Scm_B());
-    let law = LawJacobian::new(robot, to, &posture, &answer);
+    let configuration = Configuration::at(robot, &belief.q);
+    let response = base_response(to.law.base(), &configuration.base, &belief.h_Scm_B());
+    let law = LawJacobian::new(robot, to, &configuration, &response);
     let R = match to.axes {
         Axes::Inertial => belief.X_NB.rotation,
         Axes::Base => Mat3::identity(),
@@ -205,10 +205,9 @@ pub fn joint_rates<T: Real, const J: usize>(
     V_NE: &SpatialVelocity<T>,
     joints: &JointUse<T, J>,
 ) -> Resolved<T, J> {
-    let posture = Posture::new(robot, &belief.q);
-    let carried = Carried::new(to.law, robot, &posture);
-    let answer = base_answer(to.law, robot, &carried, &belief.h_Scm_B());
-    let law = LawJacobian::new(robot, to, &posture, &answer);
+    let configuration = Configuration::at(robot, &belief.q);
+    let response = base_response(to.law.base(), &configuration.base, &belief.h_Scm_B());
+    let law = LawJacobian::new(robot, to, &configuration, &response);
     Solved::new(robot, to, belief, &law, V_NE, joints).rate
 }
 
@@ -259,7 +258,7 @@ impl<T: Real, const J: usize> Solved<T, J> {
             share = share.min(joints.rate_limit[j] / joints.rate_limit[j].max(free[j].abs()));
         }
         let qdot = free.map(|rate| rate * share);
-        let V_NB_B = law.answer.caused_by(robot, &qdot) + law.answer.drift;
+        let V_NB_B = law.response.to_rates(robot, &qdot) + law.response.drift;
         Self { rate: Resolved { qdot, V_NB_B }, V_NE_B, rows, inverse, y, free, share }
     }
 }
@@ -299,10 +298,10 @@ pub fn resolved_motion<T: Real, const J: usize>(
     wanted: &WantedMotion<T>,
     joints: &JointUse<T, J>,
 ) -> ResolvedMotion<T, J> {
-    resolved_motion_in(robot, to, &Posture::new(robot, &belief.q), belief, wanted, joints).0
+    resolved_motion_in(robot, to, &Configuration::at(robot, &belief.q), belief, wanted, joints).0
 }
 
-/// The same in a posture that is at hand, and the share of the rates that the rate limits leave (–).
+/// The same in a configuration that is at hand, and the share of the rates that the rate limits leave (–).
 ///
 /// With `q̇ = q̇₀ + Jᵀ y`, `(J Jᵀ + λ²) y = w - J q̇₀` the derivatives are
 /// `q̈ = e + Jᵀ ẏ`, `(J Jᵀ + λ²) ẏ = ẇ - J̇ q̇ - J e - λ̇² y`, `e = q̈₀ + J̇ᵀ y`.
@@ -310,23 +309,22 @@ pub fn resolved_motion<T: Real, const J: usize>(
 pub(crate) fn resolved_motion_in<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     to: &Assignment<T>,
-    posture: &Posture<T, J>,
+    configuration: &Configuration<T, J>,
     belief: &Belief<T, J>,
     wanted: &WantedMotion<T>,
     joints: &JointUse<T, J>,
 ) -> (ResolvedMotion<T, J>, T) {
-    let (law_of_base, h_Scm_B) = (to.law, belief.h_Scm_B());
-    let carried = Carried::new(law_of_base, robot, posture);
-    let answer = base_answer(law_of_base, robot, &carried, &h_Scm_B);
-    let law = LawJacobian::new(robot, to, posture, &answer);
+    let (mode, h_Scm_B) = (to.law.base(), belief.h_Scm_B());
+    let response = base_response(mode, &configuration.base, &h_Scm_B);
+    let law = LawJacobian::new(robot, to, configuration, &response);
     let solved = Solved::new(robot, to, belief, &law, &wanted.V_NE, joints);
     let rate = solved.rate;
     let w_NB_B = rate.V_NB_B.angular;
-    let V = posture.twists(robot, &SpatialVelocity::zero(), &rate.qdot);
-    let known = (&answer, &carried);
+    let V = configuration.twists(robot, &rate.qdot);
     let moving = (&V, &rate.qdot);
-    let changing = base_answer_rate(law_of_base, robot, posture, known, moving, &h_Scm_B, w_NB_B);
-    let rows = row_rates(robot, to, posture, &law, &changing, &V);
+    let changing =
+        base_response_rate(mode, robot, configuration, &response, moving, &h_Scm_B, w_NB_B);
+    let rows = row_rates(robot, to, configuration, &law, &changing, &V);
     let mut Vdot = in_base_axes(to, belief, &wanted.Vdot_NE);
     if to.axes == Axes::Inertial {
         // Seen from a base that turns.
@@ -340,8 +338,8 @@ pub(crate) fn resolved_motion_in<T: Real, const J: usize>(
     for j in robot.joints() {
         qddot[j] = free[j] * solved.share + solved.free[j] * share_rate;
     }
-    let A_NB_B = law.answer.caused_by(robot, &qddot)
-        + changing.caused_by(robot, &rate.qdot)
+    let A_NB_B = law.response.to_rates(robot, &qddot)
+        + changing.to_rates(robot, &rate.qdot)
         + changing.drift;
     (ResolvedMotion { rate, qddot, A_NB_B }, solved.share)
 }
@@ -356,12 +354,16 @@ struct RowRates<T, const J: usize> {
 fn row_rates<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     to: &Assignment<T>,
-    posture: &Posture<T, J>,
+    configuration: &Configuration<T, J>,
     law: &LawJacobian<'_, T, J>,
-    changing: &BaseAnswer<T, J>,
-    V: &[SpatialVelocity<T>; J],
+    changing: &BaseResponse<T, J>,
+    V: &SpatialVelocity<[T; J]>,
 ) -> RowRates<T, J> {
-    let v_BE = of_body(to.tool.body, &SpatialVelocity::zero(), V).shifted_by(law.p_BE).linear;
+    let v_BE = match to.tool.body {
+        BodyId::Base => Vec3::zero(),
+        BodyId::Link(j) => V.at(j).shifted_by(law.p_BE).linear,
+    };
+    let S = &configuration.base.S;
     // The tool moves on while the twist is carried to it.
     let row_rate = |V: &SpatialVelocity<T>, Vdot: &SpatialVelocity<T>| {
         let moved = SpatialVelocity::new(Vec3::zero(), V.angular.cross(v_BE));
@@ -369,8 +371,8 @@ fn row_rates<T: Real, const J: usize>(
     };
     let mut columns = [[T::zero(); 6]; J];
     for j in robot.joints() {
-        let own = V[j].cross(&posture.S[j]);
-        let rate = law.total(to, j, &own, &changing.per_rate[j]);
+        let own = V.at(j).cross(&S.at(j));
+        let rate = law.total(to, j, &own, &changing.per_rate.at(j));
         columns[j] = row_rate(&law.columns[j], &rate);
     }
     let drift = match to.axes {

@@ -2,8 +2,8 @@
 
 use crate::law::ArmLaw;
 use wrasse_dynamics::{
-    Frame, Robot, State, attitude_held_jacobian, generalized_jacobian, jacobian, kinematics,
-    mass_matrix,
+    Frame, Robot, State, attitude_held_jacobian, base_rows, generalized_jacobian, jacobian,
+    kinematics,
 };
 use wrasse_spatial::{Real, SpatialForce};
 
@@ -25,7 +25,7 @@ pub fn against_tool_wrench<T: Real, const J: usize>(
     F_E: &SpatialForce<T>,
 ) -> ([T; J], SpatialForce<T>) {
     let k = kinematics(robot, state);
-    let (M, J_NE) = (mass_matrix(&k), jacobian(&k, tool));
+    let (M, J_NE) = (base_rows(&k), jacobian(&k, tool));
     let R_NB = &state.X_NB.rotation;
     let columns = match law {
         ArmLaw::Terrestrial => J_NE.joints,
@@ -38,5 +38,5 @@ pub fn against_tool_wrench<T: Real, const J: usize>(
     let torque_N = F_N.torque + lever.cross(F_N.force);
     let on_base_B =
         SpatialForce::new(R_NB.transpose_mul(-torque_N), R_NB.transpose_mul(-F_N.force));
-    (columns.map(|column| -column.power(&F_N)), on_base_B)
+    (columns.columns().map(|column| -column.power(&F_N)), on_base_B)
 }

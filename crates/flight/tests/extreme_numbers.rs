@@ -4,7 +4,7 @@
 use proptest::num::f64::{ANY, INFINITE, NEGATIVE, NORMAL, POSITIVE, QUIET_NAN, SUBNORMAL, ZERO};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, Payload, Robot, State};
+use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, MassProperties, Robot, State};
 use wrasse_flight::inverse_kinematics::{
     Anchor, ClosedForm, DampedLeastSquares, DampedOutcome, SphericalRevoluteSpherical,
     damped_least_squares,
@@ -47,8 +47,9 @@ fn finite(motion: &Motion<f64>) -> bool {
 }
 
 fn arm() -> (Robot<f64, 7>, Frame<f64>) {
-    let matter =
-        |mass: f64| Payload::from_central(mass, vec3(0.1, 0.0, 0.0), Sym3::diagonal(1.0, 1.0, 1.0));
+    let matter = |mass: f64| {
+        MassProperties::from_central(mass, vec3(0.1, 0.0, 0.0), Sym3::diagonal(1.0, 1.0, 1.0))
+    };
     let links: Vec<_> = (0..7)
         .map(|j| {
             let parent = if j == 0 { BodyId::Base } else { BodyId::Link(j - 1) };

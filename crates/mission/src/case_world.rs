@@ -3,7 +3,7 @@
 use crate::applied_wrench::together;
 use crate::mission::Case;
 use crate::read_base::Turning;
-use wrasse_dynamics::{BodyId, Frame, Payload};
+use wrasse_dynamics::{BodyId, Frame, MassProperties};
 use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::{Pose, Sym3, Vec3};
 use wrasse_vehicle::{JOINTS, VehicleRobot};
@@ -80,6 +80,6 @@ pub(crate) fn fuelled(case: &Case) -> VehicleRobot {
     let alone = believed_alone(case);
     let Some(tank) = case.equipment.actuators.tank else { return alone };
     let base = Frame { body: BodyId::Base, X_BF: Pose::identity() };
-    let matter = Payload::from_central(tank.propellant, tank.position_B, Sym3::zero());
+    let matter = MassProperties::from_central(tank.propellant, tank.position_B, Sym3::zero());
     alone.with_payload(&base, &matter)
 }

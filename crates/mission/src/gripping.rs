@@ -2,7 +2,7 @@
 
 use crate::flight::Flight;
 use crate::outcome::{End, EventKind};
-use wrasse_dynamics::{BodyId, Frame, Payload, kinematics};
+use wrasse_dynamics::{BodyId, Frame, MassProperties, kinematics};
 use wrasse_flight::{Command, Grip};
 use wrasse_spatial::{Pose, Sym3};
 use wrasse_vehicle::{JOINTS, VehicleRobot};
@@ -19,7 +19,7 @@ impl Flight<'_> {
                 let base = Frame { body: BodyId::Base, X_BF: Pose::identity() };
                 alone.with_payload(
                     &base,
-                    &Payload::from_central(left, tank.position_B, Sym3::zero()),
+                    &MassProperties::from_central(left, tank.position_B, Sym3::zero()),
                 )
             }
             None => alone,
@@ -34,7 +34,7 @@ impl Flight<'_> {
     pub(crate) fn payload_poses(&self) -> Vec<(usize, Pose<f64>)> {
         let state = self.world.state();
         let k = kinematics(self.world.robot(), &state);
-        let at_cm = |X: Pose<f64>, i: usize, matter: &Payload<f64>| {
+        let at_cm = |X: Pose<f64>, i: usize, matter: &MassProperties<f64>| {
             let p_cm = X.point(matter.M_F_F.centre_of_mass());
             (i, Pose::new(X.rotation, p_cm))
         };

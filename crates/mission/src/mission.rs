@@ -11,7 +11,7 @@ use crate::requirement::Requirement;
 use crate::sampled_loops::{SampledLoop, sampled_loops};
 use std::sync::Arc;
 use wrasse_document::Complaint;
-use wrasse_dynamics::{Frame, JointKind, Payload, State};
+use wrasse_dynamics::{Frame, JointKind, MassProperties, State};
 use wrasse_flight::steering::Unit;
 use wrasse_flight::{Phase, Setup};
 use wrasse_hardware::{AttitudeActuator, Sensors};
@@ -166,7 +166,7 @@ pub(crate) struct Believed {
     /// The vehicle with nothing in its grips and tank.
     pub(crate) robot: VehicleRobot,
     /// The payloads.
-    pub(crate) matters: Vec<Payload<f64>>,
+    pub(crate) matters: Vec<MassProperties<f64>>,
 }
 
 /// A unit that fails on the way.
@@ -187,7 +187,7 @@ pub(crate) struct FailureCase {
 #[derive(Debug, Clone)]
 pub(crate) struct PayloadCase {
     pub(crate) name: String,
-    pub(crate) matter: Payload<f64>,
+    pub(crate) matter: MassProperties<f64>,
     pub(crate) start: PayloadStart,
     /// Edges for drawings (m), centred on the centre of mass.
     pub(crate) box_m: Option<[f64; 3]>,
@@ -230,7 +230,7 @@ impl Case {
         self.believed.as_ref().map_or(&self.vehicle.robot, |believed| &believed.robot)
     }
     /// A payload as the flight computer believes it to be.
-    pub(crate) fn believed_matter(&self, payload: usize) -> Payload<f64> {
+    pub(crate) fn believed_matter(&self, payload: usize) -> MassProperties<f64> {
         let believed = self.believed.as_ref().and_then(|believed| believed.matters.get(payload));
         believed.copied().unwrap_or(self.payloads[payload].matter)
     }
@@ -244,7 +244,7 @@ impl Case {
         held.fold(fuelled(self), |robot, (frame, matter)| robot.with_payload(&frame, &matter))
     }
     /// Payloads held from the start.
-    pub(crate) fn held_at_start(&self) -> Vec<(Frame<f64>, Payload<f64>)> {
+    pub(crate) fn held_at_start(&self) -> Vec<(Frame<f64>, MassProperties<f64>)> {
         let held = self.payloads.iter().filter_map(|p| match p.start {
             PayloadStart::Held(frame) => Some((frame, p.matter)),
             PayloadStart::Free(..) => None,
@@ -252,7 +252,7 @@ impl Case {
         held.collect()
     }
     /// A payload of this matter as a free body; where it would be, if it is held.
-    pub(crate) fn free_body(&self, payload: usize, matter: Payload<f64>) -> FreeBody {
+    pub(crate) fn free_body(&self, payload: usize, matter: MassProperties<f64>) -> FreeBody {
         match self.payloads[payload].start {
             PayloadStart::Free(X_NT, V_NT_T) => FreeBody::new(matter, &X_NT, &V_NT_T),
             PayloadStart::Held(_) => {

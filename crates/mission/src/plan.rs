@@ -7,7 +7,7 @@ use crate::gripping::refusal;
 use crate::mission::{Case, PayloadStart};
 use crate::outcome::{End, PlanLine};
 use crate::sampled_loops::{SampledLoop, joint_gain, joint_loop, sampled_loops};
-use wrasse_dynamics::{Frame, Payload, State, kinematics};
+use wrasse_dynamics::{Frame, MassProperties, State, kinematics};
 use wrasse_flight::{Actuation, BadPhase, FlightComputer, Grip, LONGEST, NoWay, Sensed, Task};
 use wrasse_hardware::ActuatorReadings;
 use wrasse_spatial::{Pose, Quat, Vec3};
@@ -71,7 +71,7 @@ struct Belief<'a> {
     computer: FlightComputer<f64, JOINTS>,
     /// With propellant, and nothing in its grips.
     alone: VehicleRobot,
-    held: Vec<(usize, Frame<f64>, Payload<f64>)>,
+    held: Vec<(usize, Frame<f64>, MassProperties<f64>)>,
     free: Vec<Option<FreeBody>>,
 }
 
@@ -145,7 +145,7 @@ fn too_long(case: &Case, phase: usize, periods: u64) -> End {
 }
 
 /// A vehicle with payloads in its grips.
-fn laden(alone: &VehicleRobot, held: &[(usize, Frame<f64>, Payload<f64>)]) -> VehicleRobot {
+fn laden(alone: &VehicleRobot, held: &[(usize, Frame<f64>, MassProperties<f64>)]) -> VehicleRobot {
     held.iter().fold(*alone, |robot, (_, frame, matter)| robot.with_payload(frame, matter))
 }
 

@@ -5,7 +5,7 @@ use crate::mission::{PayloadCase, PayloadStart};
 use crate::read_setup::{attitude, radians, tool, vector};
 use crate::reading::Reading;
 use wrasse_document::{Step, at};
-use wrasse_dynamics::{Payload, State, kinematics};
+use wrasse_dynamics::{MassProperties, State, kinematics};
 use wrasse_spatial::{Pose, SpatialVelocity, Sym3};
 use wrasse_vehicle::JOINTS;
 
@@ -25,7 +25,7 @@ pub(crate) fn payloads(
     .collect()
 }
 
-fn matter(r: &mut Reading<'_>, name: &str, p: &PayloadFile) -> Payload<f64> {
+fn matter(r: &mut Reading<'_>, name: &str, p: &PayloadFile) -> MassProperties<f64> {
     let path = |key| [Step::Key("payload"), Step::Key(name), Step::Key(key)];
     let mass = r.positive(&path("mass_kg"), p.mass_kg);
     let I = match (p.uniform_box_m, p.inertia_kgm2) {
@@ -38,7 +38,7 @@ fn matter(r: &mut Reading<'_>, name: &str, p: &PayloadFile) -> Payload<f64> {
             Sym3::diagonal(1.0, 1.0, 1.0)
         }
     };
-    Payload::from_central(mass, vector(p.centre_of_mass_m), I)
+    MassProperties::from_central(mass, vector(p.centre_of_mass_m), I)
 }
 
 /// Inertia of a uniform box.

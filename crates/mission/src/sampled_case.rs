@@ -3,7 +3,7 @@
 use crate::dispersion::{Dispersion, Target, draws};
 use crate::mission::{Believed, Case, PayloadStart};
 use std::sync::Arc;
-use wrasse_dynamics::{BodyId, Payload};
+use wrasse_dynamics::{BodyId, MassProperties};
 use wrasse_hardware::Sensors;
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Vec3};
 use wrasse_vehicle::{Vehicle, VehicleRobot};
@@ -62,11 +62,13 @@ impl Case {
     }
 
     /// Robot and payloads after these deviations.
-    fn matter(&self, all: &[Deviation]) -> (VehicleRobot, Vec<Payload<f64>>) {
+    fn matter(&self, all: &[Deviation]) -> (VehicleRobot, Vec<MassProperties<f64>>) {
         let robot = &self.vehicle.robot;
         let payload = |body: BodyId| {
-            let as_it_is =
-                Payload { M_F_F: *robot.inertia(body), I_parts_F: *robot.inertia_of_parts(body) };
+            let as_it_is = MassProperties {
+                M_F_F: *robot.inertia(body),
+                I_parts_F: *robot.inertia_of_parts(body),
+            };
             changed(&as_it_is, mass_change(all, Some(body), None))
         };
         let links: Vec<_> =
@@ -150,7 +152,7 @@ fn mass_change(all: &[Deviation], body: Option<BodyId>, payload: Option<usize>) 
 
 /// Matter after a change. Its inertia about its centre of mass goes with its mass: the same shape,
 /// denser.
-fn changed(matter: &Payload<f64>, change: MassChange) -> Payload<f64> {
+fn changed(matter: &MassProperties<f64>, change: MassChange) -> MassProperties<f64> {
     if change == MassChange::default() {
         return *matter;
     }
@@ -158,9 +160,9 @@ fn changed(matter: &Payload<f64>, change: MassChange) -> Payload<f64> {
     let mass = M.mass + change.mass;
     let factor = mass / M.mass * (1.0 + change.inertia);
     let centre = M.centre_of_mass() + Vec3::from_array(change.centre);
-    Payload {
+    MassProperties {
         I_parts_F: matter.I_parts_F.scaled(factor),
-        ..Payload::from_central(mass, centre, M.central().scaled(factor))
+        ..MassProperties::from_central(mass, centre, M.central().scaled(factor))
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::dispersion::{Dispersion, Target};
 use crate::mission::{Case, Mission};
 use crate::read_base::Turning;
-use wrasse_dynamics::{BodyId, Payload};
+use wrasse_dynamics::{BodyId, MassProperties};
 use wrasse_spatial::Sym3;
 use wrasse_vehicle::VehicleRobot;
 
@@ -44,12 +44,12 @@ fn acts(target: Target, case: &Case) -> bool {
     }
 }
 
-fn matter_of(robot: &VehicleRobot, body: BodyId) -> Payload<f64> {
-    Payload { M_F_F: *robot.inertia(body), I_parts_F: *robot.inertia_of_parts(body) }
+fn matter_of(robot: &VehicleRobot, body: BodyId) -> MassProperties<f64> {
+    MassProperties { M_F_F: *robot.inertia(body), I_parts_F: *robot.inertia_of_parts(body) }
 }
 
 /// Whether there is inertia about the centre of mass: a point mass has none.
-fn has_inertia(matter: &Payload<f64>) -> bool {
+fn has_inertia(matter: &MassProperties<f64>) -> bool {
     matter.M_F_F.central() != Sym3::zero()
 }
 

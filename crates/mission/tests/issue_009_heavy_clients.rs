@@ -159,3 +159,22 @@ fn a_law_on_a_base_that_it_does_not_expect_has_a_lower_limit() {
     let used = metric(&outcome, "joints.effort_use.max");
     assert!(used < 0.5, "no drive rattles at its limit: {used}");
 }
+
+/// The arm unfolds from a posture whose limit is 9.2 rad/s to one whose limit is 8.4 rad/s: a loop of
+/// 8.8 rad/s is near its limit where the mission begins, and unstable on the way.
+#[test]
+fn a_way_on_which_a_loop_becomes_unstable_is_infeasible() {
+    let unfolding = |bandwidth: &str| {
+        client("1500.0", "attitude-held", &format!("joint_bandwidth_rad_s = {bandwidth}"))
+            .replace("base_attitude = \"controlled\"", "base_attitude = \"free\"")
+            .replace("[payload.client]", "joints_deg = { joint4 = 120.0 }\n[payload.client]")
+            .replace("joint4 = 108.0", "joint4 = 60.0")
+    };
+    let End::Infeasible { phase, time_s, reason } = fly(&unfolding("8.8")).end else {
+        panic!("it is flown")
+    };
+    assert!(phase == "go" && (1.0..39.0).contains(&time_s), "{phase} {time_s} s");
+    assert!(reason.contains("unstable as sampled: joints 8.8 rad/s at 100 Hz"), "{reason}");
+    assert!(reason.contains("or control.rate_hz to"), "{reason}");
+    assert_eq!(fly(&unfolding("8.0")).end, End::Completed);
+}

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 use wrasse_dynamics::{
-    Payload, State, bias_force, free_floating_dynamics, kinematics, mass_matrix,
+    MassProperties, State, bias_force, free_floating_dynamics, kinematics, mass_matrix,
 };
 use wrasse_mission::{CaseOutcome, End, Outcome, RunOptions, read_mission, run};
 use wrasse_spatial::{Sym3, vec3};
@@ -143,9 +143,9 @@ fn atlas_class() -> Vehicle {
     find_vehicle("atlas-class", None).expect("it is in the catalogue")
 }
 
-fn cube(mass: f64) -> Payload<f64> {
+fn cube(mass: f64) -> MassProperties<f64> {
     let I = Sym3::diagonal(1.0, 1.0, 1.0).scaled(mass / 6.0);
-    Payload::from_central(mass, vec3(0.5, 0.0, 0.0), I)
+    MassProperties::from_central(mass, vec3(0.5, 0.0, 0.0), I)
 }
 
 /// With the attitude held the base recoils so that the centre of mass stays: the miss is the moving

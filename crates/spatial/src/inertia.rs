@@ -44,22 +44,9 @@ impl<T: Real> SpatialInertia<T> {
     #[inline(always)]
     #[must_use]
     pub fn about(&self, p_BC: Vec3<T>) -> Self {
-        // With r from C = r from B - p:  I_C = I_B + (p·g) 1 - ½ (p gᵀ + g pᵀ), g = m p - 2 h.
-        let (h, m, p) = (self.first_moment, self.mass, p_BC);
-        let mp = p * m;
-        let g = mp - (h + h);
-        let half = g * T::from_f64(0.5);
-        let (x, y, z) = (p.x * g.x, p.y * g.y, p.z * g.z);
-        let I = self.rotational;
-        let rotational = Sym3 {
-            xx: I.xx + (y + z),
-            xy: I.xy - (p.x * half.y + p.y * half.x),
-            xz: I.xz - (p.x * half.z + p.z * half.x),
-            yy: I.yy + (x + z),
-            yz: I.yz - (p.y * half.z + p.z * half.y),
-            zz: I.zz + (x + y),
-        };
-        Self { mass: m, first_moment: h - mp, rotational }
+        let (h, m) = (self.first_moment, self.mass);
+        let rotational = self.rotational + Sym3::of_shift(-p_BC, h, m);
+        Self { mass: m, first_moment: h - p_BC * m, rotational }
     }
     /// The same body in A axes, from `R_AB`.
     #[inline(always)]

@@ -1,7 +1,8 @@
 //! Several numbers side by side, one to each lane of the processor.
 
+use crate::kernel::With;
 use crate::trigonometry::{is_near, near_sin_cos};
-use crate::{Baseline, Instructions, Real, Work};
+use crate::{Baseline, Instructions, Kernel, OneByOne, Real, Work};
 use core::marker::PhantomData;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -152,6 +153,10 @@ impl<const N: usize, I: Instructions> Real for Lanes<N, I> {
     #[inline(always)]
     fn apart<W: Work>(work: W) -> W::Out {
         I::run(work)
+    }
+    #[inline(always)]
+    fn dispatch<K: Kernel<Self>>(kernel: K) -> K::Out {
+        I::run(With::<K, OneByOne<Self>>::layout(kernel))
     }
     #[inline(always)]
     fn select(mask: LaneMask<N>, a: Self, b: Self) -> Self {

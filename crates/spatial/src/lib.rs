@@ -11,7 +11,9 @@ mod counted;
 mod dual;
 mod inertia;
 mod instructions;
+mod kernel;
 mod lanes;
+mod layout;
 mod matrix;
 mod motion;
 mod pose;
@@ -23,15 +25,21 @@ mod side_by_side;
 mod trigonometry;
 mod turn;
 mod vector;
+#[cfg(target_arch = "x86_64")]
+mod wide;
 
 #[cfg(feature = "counted")]
 pub use counted::Counted;
 pub use dual::Dual;
 pub use inertia::{ArticulatedInertia, InverseInertia, SpatialInertia};
-pub use instructions::{Baseline, Instructions, Work};
+pub use instructions::{Baseline, Instructions, Level, Work};
+pub use kernel::Kernel;
 pub use lanes::{LaneMask, Lanes};
+pub use layout::{At, Group, Layout, OneByOne, Rows, groups};
 pub use matrix::{Mat3, Sym3};
-pub use motion::{SpatialAcceleration, SpatialForce, SpatialMomentum, SpatialVelocity};
+pub use motion::{
+    ClassicalAcceleration, SpatialAcceleration, SpatialForce, SpatialMomentum, SpatialVelocity,
+};
 pub use pose::Pose;
 pub use quaternion::Quat;
 pub use real::{Real, Scalar};
@@ -39,3 +47,5 @@ pub use rotation_vector::{rotation_vector_rate, turned_by};
 pub use side_by_side::SideBySide;
 pub use turn::{Turn, Turned};
 pub use vector::{Vec3, vec3};
+#[cfg(target_arch = "x86_64")]
+pub use wide::{Avx2, Avx512};

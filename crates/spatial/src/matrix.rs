@@ -166,6 +166,24 @@ impl<T: Real> Sym3<T> {
             zz: p.x * q.x + p.y * q.y,
         }
     }
+    /// What a body's inertia about another point has more than that about its own, from the way `p` to
+    /// its own point, its first moment `h` about that and its mass.
+    ///
+    /// With r from the other point = r + p:  `(p·g) 1 - ½ (p gᵀ + g pᵀ)`, `g = m p + 2 h`.
+    #[inline(always)]
+    pub fn of_shift(p: Vec3<T>, h: Vec3<T>, m: T) -> Self {
+        let half = p * m * T::from_f64(0.5) + h;
+        let g = half + half;
+        let (x, y, z) = (p.x * g.x, p.y * g.y, p.z * g.z);
+        Self {
+            xx: y + z,
+            xy: -(p.x * half.y + p.y * half.x),
+            xz: -(p.x * half.z + p.z * half.x),
+            yy: x + z,
+            yz: -(p.y * half.z + p.z * half.y),
+            zz: x + y,
+        }
+    }
     /// `v vᵀ s`.
     #[inline(always)]
     pub fn dyad(v: Vec3<T>, s: T) -> Self {
@@ -203,14 +221,20 @@ impl<T: Real> Sym3<T> {
         let y = y1 * d1 - l21 * z;
         vec3(y0 * d0 - l10 * y - l20 * z, y, z)
     }
-    /// `S⁻¹` of a positive definite S, column by column.
+    /// `S⁻¹` of a positive definite S: its cofactors by its determinant, one division.
     #[inline(always)]
     #[must_use]
     pub fn inverse(&self) -> Self {
-        let (o, i) = (T::zero(), T::one());
-        let (x, y) = (self.solve(vec3(i, o, o)), self.solve(vec3(o, i, o)));
-        let z = self.solve(vec3(o, o, i));
-        Self { xx: x.x, xy: y.x, xz: z.x, yy: y.y, yz: z.y, zz: z.z }
+        let cofactors = Self {
+            xx: self.yy * self.zz - self.yz * self.yz,
+            xy: self.xz * self.yz - self.xy * self.zz,
+            xz: self.xy * self.yz - self.xz * self.yy,
+            yy: self.xx * self.zz - self.xz * self.xz,
+            yz: self.xy * self.xz - self.xx * self.yz,
+            zz: self.xx * self.yy - self.xy * self.xy,
+        };
+        let determinant = self.xx * cofactors.xx + self.xy * cofactors.xy + self.xz * cofactors.xz;
+        cofactors.scaled(T::one() / determinant)
     }
     /// `S s`, each element scaled.
     #[inline(always)]

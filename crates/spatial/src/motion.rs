@@ -5,8 +5,8 @@ use core::ops::{Add, AddAssign, Mul, Neg, Sub};
 
 /// Velocity of a body at a point: `V_NB_B = [w_NB_B; v_NB_B]`, angular part first.
 ///
-/// The same kind carries Featherstone's spatial acceleration, which shifts like a velocity; it is
-/// not the classical acceleration of the point (that is `A.linear + w × v`).
+/// The same kind carries Featherstone's spatial acceleration, which shifts like a velocity; it is not
+/// the [classical](ClassicalAcceleration) acceleration of the point (that is `A.linear + w × v`).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct SpatialVelocity<T> {
     /// Angular velocity (rad/s).
@@ -18,6 +18,39 @@ pub struct SpatialVelocity<T> {
 /// Featherstone's spatial acceleration (rad/s², m/s²): the plain time derivative of the components
 /// of a spatial velocity in body axes.
 pub type SpatialAcceleration<T> = SpatialVelocity<T>;
+
+/// Acceleration of a body at a point, as an observer in N measures it: the angular acceleration
+/// (rad/s²), and the second derivative of the point's position (m/s²).
+///
+/// Its linear part differs from that of a [`SpatialAcceleration`] by `w × v`, so the two do not mix.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct ClassicalAcceleration<T> {
+    /// Angular acceleration (rad/s²).
+    pub angular: Vec3<T>,
+    /// Acceleration of the point (m/s²).
+    pub linear: Vec3<T>,
+}
+
+impl<T: Real> ClassicalAcceleration<T> {
+    /// Of a body with the twist `V`, from the time derivatives of its components in body axes.
+    #[inline(always)]
+    pub fn of_twist(V: &SpatialVelocity<T>, Vdot: &SpatialAcceleration<T>) -> Self {
+        Self { angular: Vdot.angular, linear: Vdot.linear + V.angular.cross(V.linear) }
+    }
+    /// Time derivatives of the components of the twist `V` in body axes.
+    #[inline(always)]
+    pub fn twist_rate(&self, V: &SpatialVelocity<T>) -> SpatialAcceleration<T> {
+        SpatialAcceleration::new(self.angular, self.linear - V.angular.cross(V.linear))
+    }
+    /// That of a point C that is fixed to the body, from the offset `p_BC` (m) and the body's turning
+    /// rate `w` (rad/s).
+    #[inline(always)]
+    #[must_use]
+    pub fn shifted_by(&self, p_BC: Vec3<T>, w: Vec3<T>) -> Self {
+        let linear = self.linear + self.angular.cross(p_BC) + w.cross(w.cross(p_BC));
+        Self { angular: self.angular, linear }
+    }
+}
 
 /// Force on a body: `F_B_B = [torque about Bo; force]`, torque first.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

@@ -1,7 +1,7 @@
 //! The scalar that the core is written over: `f64`, `f32`, duals, and lanes.
 
 use crate::trigonometry::{sin_cos_f32, sin_cos_f64};
-use crate::{Lanes, Work};
+use crate::{Kernel, Lanes, OneByOne, Work};
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -13,6 +13,10 @@ mod sealed {
     impl<const N: usize, I: crate::Instructions> Sealed for crate::Lanes<N, I> {}
     #[cfg(feature = "counted")]
     impl Sealed for crate::Counted {}
+    #[cfg(target_arch = "x86_64")]
+    impl Sealed for crate::wide::Two {}
+    #[cfg(target_arch = "x86_64")]
+    impl Sealed for crate::wide::Four {}
 }
 
 /// A real number, or several of them side by side. Kernels never branch on its value: they
@@ -63,6 +67,11 @@ pub trait Real:
     #[inline(always)]
     fn apart<W: Work>(work: W) -> W::Out {
         work.run()
+    }
+    /// Run an algorithm over links, in the layout that these numbers are quickest in on this processor.
+    #[inline(always)]
+    fn dispatch<K: Kernel<Self>>(kernel: K) -> K::Out {
+        kernel.run::<OneByOne<Self>>()
     }
     /// Sines and cosines of the first `count` angles (rad), zeros behind them.
     #[inline(always)]
@@ -183,6 +192,11 @@ macro_rules! float {
     };
 }
 float!(f64, libm::sqrt, sin_cos_f64, libm::atan2, libm::acos, libm::exp, libm::log, {
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    fn dispatch<K: Kernel<f64>>(kernel: K) -> K::Out {
+        crate::wide::dispatch(kernel)
+    }
     /// Eight angles at a time, as the lanes of one call.
     #[inline(always)]
     fn sin_cos_each<const J: usize>(angles: &[f64; J], count: usize) -> ([f64; J], [f64; J]) {

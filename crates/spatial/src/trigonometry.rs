@@ -33,7 +33,7 @@ pub(crate) fn sin_cos_f32(x: f32) -> (f32, f32) {
 /// Whether the common way holds for an angle (rad).
 #[inline(always)]
 pub(crate) fn is_near(x: f64) -> bool {
-    x.abs() <= LARGEST_F64
+    x.abs() < BEYOND
 }
 
 /// Sine and cosine of an angle (rad) that [`is_near`].
@@ -104,8 +104,8 @@ fn in_quarter<R: Real>(quarter: R, sine: R, cosine: R) -> (R, R) {
     (R::select(below, -s, s), R::select(left, -c1, c1))
 }
 
-/// Largest angle (rad) that the reduction is exact for: 2²⁰ quarter turns.
-const LARGEST_F64: f64 = 1.6e6;
+/// Angles (rad) that the reduction is exact for are smaller: 2²⁰ quarter turns.
+pub(crate) const BEYOND: f64 = 1.6e6;
 /// The same in single precision.
 const LARGEST_F32: f32 = 8192.0;
 

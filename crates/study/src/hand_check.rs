@@ -5,7 +5,7 @@ use crate::outcome::HandCheck;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use wrasse_dynamics::{BodyId, Frame, Kinematics, Payload, State, kinematics};
+use wrasse_dynamics::{BodyId, Frame, Kinematics, MassProperties, State, kinematics};
 use wrasse_hardware::Tank;
 use wrasse_spatial::{Pose, Sym3, Vec3};
 use wrasse_vehicle::{JOINTS, Vehicle, VehicleRobot};
@@ -116,7 +116,8 @@ impl<'a> Start<'a> {
         let mut robot = vehicle.robot;
         if let Some(tank) = tank {
             let base = Frame { body: BodyId::Base, X_BF: Pose::identity() };
-            let matter = Payload::from_central(tank.propellant, tank.position_B, Sym3::zero());
+            let matter =
+                MassProperties::from_central(tank.propellant, tank.position_B, Sym3::zero());
             robot = robot.with_payload(&base, &matter);
         }
         Self { vehicle, robot, state: *state }

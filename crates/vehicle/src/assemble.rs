@@ -9,7 +9,7 @@ use crate::tree::{Edge, Tree, tree};
 use crate::vehicle::{GraspBounds, JOINTS, NamedFrame, VehicleRobot};
 use std::sync::Arc;
 use wrasse_document::{Complaint, Source};
-use wrasse_dynamics::{BodyId, Frame, Joint, Payload};
+use wrasse_dynamics::{BodyId, Frame, Joint, MassProperties};
 use wrasse_hardware::JointLimits;
 use wrasse_spatial::Pose;
 
@@ -64,7 +64,7 @@ struct Parts {
     /// Where each link is on its body.
     frames: Vec<Frame<f64>>,
     /// Matter of the base, then of what each moving joint carries.
-    matter: Vec<Payload<f64>>,
+    matter: Vec<MassProperties<f64>>,
     /// Moving joints, parents before children, and the body that each is mounted on.
     moving: Vec<(Edge, BodyId, Pose<f64>)>,
 }
@@ -74,7 +74,7 @@ impl Parts {
         let root = Frame { body: BodyId::Base, X_BF: Pose::identity() };
         let mut parts = Self {
             frames: vec![root; links.len()],
-            matter: vec![Payload::default()],
+            matter: vec![MassProperties::default()],
             moving: vec![],
         };
         for &edge in &tree.order {
@@ -85,14 +85,14 @@ impl Parts {
                 Frame { body: on.body, X_BF: X_PC }
             } else {
                 parts.moving.push((edge, on.body, X_PC));
-                parts.matter.push(Payload::default());
+                parts.matter.push(MassProperties::default());
                 Frame { body: BodyId::Link(parts.moving.len() - 1), X_BF: Pose::identity() }
             };
         }
         for (link, frame) in links.iter().zip(&parts.frames) {
             if let Some(m) = &link.matter {
                 let matter =
-                    Payload::from_central(m.mass, m.p_cm, m.inertia).seen_from(&frame.X_BF);
+                    MassProperties::from_central(m.mass, m.p_cm, m.inertia).seen_from(&frame.X_BF);
                 let body = &mut parts.matter[place(frame.body)];
                 *body = body.and(&matter);
             }

@@ -5,7 +5,7 @@
 use std::path::Path;
 use wrasse_document::{Severity, render};
 use wrasse_dynamics::{BodyId, State, generalized_jacobian, jacobian, kinematics, mass_matrix};
-use wrasse_spatial::Vec3;
+use wrasse_spatial::{At, Vec3};
 use wrasse_vehicle::{JOINTS, NoVehicle, Vehicle, catalogue, find_vehicle, read_vehicle};
 
 fn vehicle(name: &str) -> Vehicle {
@@ -113,7 +113,8 @@ fn planar_determinant(vehicle: &Vehicle, deg: [f64; 2]) -> f64 {
     let poses = kinematics(&vehicle.robot, &state);
     let J_tool = jacobian(&poses, &vehicle.frame("tool").expect("a tool"));
     let J = generalized_jacobian(&J_tool, &mass_matrix(&poses));
-    J[0].linear.x * J[1].linear.y - J[1].linear.x * J[0].linear.y
+    let [first, second] = [0, 1].map(|j| J.linear.at(j));
+    first.x * second.y - second.x * first.y
 }
 
 #[test]

@@ -3,7 +3,7 @@
 
 use wrasse_document::{Severity, render};
 use wrasse_dynamics::{BodyId, State, jacobian, kinematics};
-use wrasse_spatial::Vec3;
+use wrasse_spatial::{At, Vec3};
 use wrasse_vehicle::{Grade, JOINTS, Vehicle, read_vehicle};
 
 const FILES: [(&str, &str); 4] = [
@@ -136,7 +136,7 @@ fn least_singular_value(vehicle: &Vehicle, q: &[f64]) -> f64 {
     state.q[..q.len()].copy_from_slice(q);
     let k = kinematics(&vehicle.robot, &state);
     let J = jacobian(&k, &vehicle.frame("tool").expect("a tool"));
-    let column = |j: usize| J.joints[j].to_array();
+    let column = |j: usize| J.joints.at(j).to_array();
     let matrix = nalgebra::DMatrix::from_fn(6, q.len(), |i, j| column(j)[i]);
     matrix.singular_values().min()
 }

@@ -64,15 +64,16 @@ impl<const J: usize> World<J> {
 
     fn advance_evenly(&mut self, from: f64, to: f64, step: f64) -> Result<(), NonFinite> {
         let (count, h) = equal_steps(to - from, step);
-        let mut done = 0.0;
+        let (mut done, mut places) = (0.0, self.places.take().unwrap_or_default());
         while done < count {
             let t0 = self.into_period + (from + done * h);
-            let d = runge_kutta_4(h, |t, d| self.rates(t0, t, d));
+            let d = runge_kutta_4(h, |t, d| self.rates(&mut places, t0, t, d));
             done += 1.0;
             // The last step ends where the stretch does, to the bit.
             let gone = if done < count { from + done * h } else { to };
             self.accept(&d, self.into_period + gone)?;
         }
+        self.places = Some(places);
         Ok(())
     }
 
@@ -80,11 +81,12 @@ impl<const J: usize> World<J> {
         let mut t0 = self.into_period + from;
         let end = self.into_period + to;
         let mut h = self.last_step.min(to - from);
+        let mut places = self.places.take().unwrap_or_default();
         while t0 < end {
             let rest = end - t0;
             let last = h >= rest * (1.0 - 1e-12);
             let trial = if last { rest } else { h };
-            let (d, error) = dormand_prince(trial, |t, d| self.rates(t0, t, d));
+            let (d, error) = dormand_prince(trial, |t, d| self.rates(&mut places, t0, t, d));
             let size = error.error_norm(tolerance).max(1e-10);
             // Order 5 in the step asks for the fifth root. The fourth finds the step as well, and
             // square roots are the same bits on every machine.
@@ -100,6 +102,7 @@ impl<const J: usize> World<J> {
                 h = trial * factor;
             }
         }
+        self.places = Some(places);
         Ok(())
     }
 

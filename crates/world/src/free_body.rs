@@ -1,14 +1,14 @@
 //! A rigid body that floats by itself: a target before it is grasped, or after it is released.
 
 use crate::stepper::{Displacement, Stepper, equal_steps, runge_kutta_4};
-use wrasse_dynamics::Payload;
+use wrasse_dynamics::MassProperties;
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Vec3, rotation_vector_rate, turned_by};
 
 /// A free rigid body: attitude, centre of mass and momentum in inertial axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FreeBody {
     /// Its matter, about its own frame T.
-    pub matter: Payload<f64>,
+    pub matter: MassProperties<f64>,
     /// Attitude `quat_NT`.
     pub quat_NT: Quat<f64>,
     /// Centre of mass `p_NTcm_N` (m).
@@ -30,7 +30,11 @@ impl Displacement for Vec3<f64> {
 
 impl FreeBody {
     /// From its pose `X_NT` and twist `V_NT_T`.
-    pub fn new(matter: Payload<f64>, X_NT: &Pose<f64>, V_NT_T: &SpatialVelocity<f64>) -> Self {
+    pub fn new(
+        matter: MassProperties<f64>,
+        X_NT: &Pose<f64>,
+        V_NT_T: &SpatialVelocity<f64>,
+    ) -> Self {
         let h_T = matter.M_F_F * *V_NT_T;
         let p_TTcm_T = matter.M_F_F.centre_of_mass();
         Self {

@@ -6,8 +6,7 @@ use crate::setup::{BaseAttitude, Drive};
 use crate::stepper::Displacement;
 use crate::world::SystemState;
 use wrasse_dynamics::{
-    BaseMode, Dynamics, JointDrive, Kinematics, Outside, Robot, State, base_rows, driven_dynamics,
-    kinematics,
+    BaseMode, BaseRows, Dynamics, JointDrive, Robot, State, base_rows, kinematics,
 };
 use wrasse_spatial::{
     Pose, Real, SpatialForce, SpatialVelocity, Vec3, rotation_vector_rate, turned_by,
@@ -46,35 +45,35 @@ impl<T: Real, const J: usize> FreeFlight<'_, T, J> {
         inside_B: Vec3<T>,
         t: f64,
     ) -> State<T, J> {
-        let posture = self.posture(system, t);
-        let bent = kinematics(self.robot, &posture);
-        self.moving(&bent, system, inside_B)
+        let bent = self.bent(system, t);
+        self.moving(&bent, &base_rows(&kinematics(self.robot, &bent)), system, inside_B)
     }
 
     /// The joints' state that a system state means, `t` (s) into the current set-points.
     #[inline(always)]
-    pub(crate) fn posture(&self, system: &SystemState<J, T>, t: f64) -> State<T, J> {
-        let mut posture = State { q: system.q, v: system.v, ..State::default() };
+    pub(crate) fn bent(&self, system: &SystemState<J, T>, t: f64) -> State<T, J> {
+        let mut bent = State { q: system.q, v: system.v, ..State::default() };
         for j in self.robot.joints() {
             if let Drive::Follow(motion) = &self.drives[j] {
                 let set_point = motion.at(T::from_f64(t));
-                (posture.q[j], posture.v[j]) = (set_point.position, set_point.rate);
+                (bent.q[j], bent.v[j]) = (set_point.position, set_point.rate);
             }
         }
-        posture
+        bent
     }
 
-    /// Pose and twist of the base that a system state means, beside a posture.
+    /// Pose and twist of the base that a system state means, beside the joints' state and what it gives
+    /// of the mass matrix.
     #[inline(always)]
     pub(crate) fn moving(
         &self,
-        posture: &Kinematics<'_, T, J>,
+        bent: &State<T, J>,
+        rows: &BaseRows<T, J>,
         system: &SystemState<J, T>,
         inside_B: Vec3<T>,
     ) -> State<T, J> {
-        let mut state = *posture.state;
+        let mut state = *bent;
         // Inertia with joints locked and momentum of the joint rates alone: about Bo, in base axes.
-        let rows = base_rows(posture);
         let (M, h_of_rates) = (rows.M_bb, rows.momentum_of_rates(&state.v));
         let R_NB = system.quat_NB.to_matrix();
         let p_BScm_B = M.centre_of_mass();
@@ -94,25 +93,19 @@ impl<T: Real, const J: usize> FreeFlight<'_, T, J> {
         state
     }
 
-    /// Accelerations and forces, `t` (s) into the current set-points: with what turns the base beside
-    /// its actuator (N·m), what pushes it, and what acts on all bodies, each in the body's axes.
+    /// What is given of the joints, `t` (s) into the current set-points.
     #[inline(always)]
-    pub(crate) fn dynamics(
-        &self,
-        k: &Kinematics<'_, T, J>,
-        t: f64,
-        (turning_B, thrust_B): (Vec3<T>, SpatialForce<T>),
-        mut outside: Outside<'_, T, J>,
-    ) -> Dynamics<T, J> {
-        let drives = core::array::from_fn(|j| match &self.drives[j] {
-            Drive::Follow(motion) => {
-                JointDrive::Acceleration(motion.at(T::from_f64(t)).acceleration)
-            }
-            Drive::Effort(tau) => JointDrive::Effort(*tau),
-        });
-        outside.base.torque += self.actuator_torque_B + turning_B;
-        outside.base += thrust_B;
-        driven_dynamics(k, &drives, self.base.mode(), outside)
+    pub(crate) fn joint_drives(&self, t: f64) -> [JointDrive<T>; J] {
+        let mut drives = [JointDrive::Effort(T::zero()); J];
+        for j in self.robot.joints() {
+            drives[j] = match &self.drives[j] {
+                Drive::Follow(motion) => {
+                    JointDrive::Acceleration(motion.at(T::from_f64(t)).acceleration)
+                }
+                Drive::Effort(tau) => JointDrive::Effort(*tau),
+            };
+        }
+        drives
     }
 
     /// Rates of the flow at displacement `d`, where drives, actuator and what turns the base are all

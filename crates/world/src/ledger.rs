@@ -222,14 +222,15 @@ impl Ledger {
 #[cfg(test)]
 mod tests {
     use crate::{BaseAttitude, Drive, Equipment, FreeBody, Ledger, Stepper, World, WorldSetup};
-    use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, Payload, Robot, State};
+    use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, MassProperties, Robot, State};
     use wrasse_hardware::ActuatorCommand;
     use wrasse_spatial::{Pose, SpatialVelocity, Sym3, Vec3, vec3};
 
     /// A base with one arm, moving; flown for a second under a joint torque and an actuator torque.
     fn flown(spoil: impl Fn(&mut World<1>)) -> Ledger {
-        let base = Payload::from_central(50.0, Vec3::zero(), Sym3::diagonal(4.0, 5.0, 6.0));
-        let arm = Payload::from_central(5.0, vec3(0.4, 0.0, 0.1), Sym3::diagonal(0.1, 0.3, 0.3));
+        let base = MassProperties::from_central(50.0, Vec3::zero(), Sym3::diagonal(4.0, 5.0, 6.0));
+        let arm =
+            MassProperties::from_central(5.0, vec3(0.4, 0.0, 0.1), Sym3::diagonal(0.1, 0.3, 0.3));
         let mount = Pose { translation: vec3(0.5, 0.2, 0.0), ..Pose::identity() };
         let joint = Joint::new(BodyId::Base, JointKind::Revolute, mount, vec3(0.1, 0.3, 1.0));
         let robot: Robot<f64, 1> = Robot::new(base, &[(joint, arm)]).unwrap();
@@ -320,7 +321,7 @@ mod tests {
     #[test]
     fn matter_that_nobody_brought_is_a_rest_of_energy_alone() {
         let [angular, linear, energy] = rests(|world| {
-            let more = Payload::from_central(0.01, vec3(0.8, 0.0, 0.0), Sym3::zero());
+            let more = MassProperties::from_central(0.01, vec3(0.8, 0.0, 0.0), Sym3::zero());
             let arm = Frame { body: BodyId::Link(0), X_BF: Pose::identity() };
             world.robot = world.robot.with_payload(&arm, &more);
         });
@@ -342,7 +343,8 @@ mod tests {
     /// Two bodies in one place that fly and spin against each other: no momentum, twice the scale.
     #[test]
     fn the_scale_is_the_sum_of_what_each_body_has() {
-        let matter = Payload::from_central(10.0, Vec3::zero(), Sym3::diagonal(4.0, 4.0, 4.0));
+        let matter =
+            MassProperties::from_central(10.0, Vec3::zero(), Sym3::diagonal(4.0, 4.0, 4.0));
         let robot: Robot<f64, 1> = Robot::new(matter, &[]).unwrap();
         let (V, o) =
             (SpatialVelocity::from_array([0.5, 0.0, 0.0, 0.0, 0.25, 0.0]), Pose::identity());

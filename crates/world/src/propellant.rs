@@ -2,7 +2,7 @@
 //! is let go: with the tank's velocity. The thrust itself is a force from outside.
 
 use crate::world::World;
-use wrasse_dynamics::{BodyId, Frame, Payload, Robot, kinematics};
+use wrasse_dynamics::{BodyId, Frame, MassProperties, Robot, kinematics};
 use wrasse_spatial::{Pose, Sym3, Vec3};
 
 /// What propellant took with it, as it left the tank.
@@ -31,7 +31,10 @@ impl InTank {
     /// A robot with this on its base.
     pub(crate) fn added_to<const J: usize>(self, robot: &Robot<f64, J>) -> Robot<f64, J> {
         let base = Frame { body: BodyId::Base, X_BF: Pose::identity() };
-        robot.with_payload(&base, &Payload::from_central(self.mass, self.position_B, Sym3::zero()))
+        robot.with_payload(
+            &base,
+            &MassProperties::from_central(self.mass, self.position_B, Sym3::zero()),
+        )
     }
 }
 

@@ -4,7 +4,10 @@ use crate::flow::Flow;
 use crate::free_flight::FreeFlight;
 use crate::setup::BaseAttitude;
 use crate::world::{SystemState, World};
-use wrasse_dynamics::{BodyId, Dynamics, Kinematics, Outside, PerBody, State, kinematics};
+use wrasse_dynamics::{
+    BodyId, Configuration, Dynamics, ForwardDynamics, Kinematics, Outside, PerBody, State,
+    accelerate, configure, driven_dynamics, kinematics,
+};
 use wrasse_hardware::{GYROS, WHEELS};
 use wrasse_spatial::{SpatialForce, Vec3};
 
@@ -34,7 +37,9 @@ impl<const J: usize> World<J> {
         t: f64,
         acting: &Acting<J>,
     ) -> Dynamics<f64, J> {
-        self.vehicle().dynamics(k, t, (acting.turning_B, acting.thrust_B), acting.outside())
+        let drives = self.vehicle().joint_drives(t);
+        let pushed = acting.on_bodies(self.actuator_torque_B);
+        driven_dynamics(k, &drives, self.base.mode(), pushed)
     }
 
     /// What wheels and gyros hold beside the bodies, base axes (N·m·s).
@@ -43,17 +48,26 @@ impl<const J: usize> World<J> {
             + self.gyros.together_B(system.gimbal_angle, system.gimbal_rate)
     }
 
-    /// What acts at a state, `t` (s) into the current set-points; forces of thrusters as in the
-    /// stretch that holds `within` (s).
-    pub(crate) fn acting(
+    /// What acts at a state, `t` (s) into the current set-points.
+    pub(crate) fn acting_at(
         &self,
         system: &SystemState<J>,
         k: &Kinematics<'_, f64, J>,
         t: f64,
-        within: f64,
     ) -> Acting<J> {
-        let (w, angle, rate) =
-            (k.V_NB_B(BodyId::Base).angular, system.gimbal_angle, system.gimbal_rate);
+        self.acting(system, k.state, self.outside_wrench(t, k), (t, t))
+    }
+
+    /// What acts at a state beside a wrench from outside, `t` (s) into the current set-points; forces
+    /// of thrusters as in the stretch that holds `within` (s).
+    fn acting(
+        &self,
+        system: &SystemState<J>,
+        state: &State<f64, J>,
+        outside: Option<PerBody<SpatialForce<f64>, J>>,
+        (t, within): (f64, f64),
+    ) -> Acting<J> {
+        let (w, angle, rate) = (state.V_NB_B.angular, system.gimbal_angle, system.gimbal_rate);
         // On a base that is held nothing turns against it; what they hold stays, for w is zero.
         let (wheel_torque, gimbal_acceleration) = match self.base {
             BaseAttitude::Held => ([0.0; WHEELS], [0.0; GYROS]),
@@ -66,7 +80,7 @@ impl<const J: usize> World<J> {
         let hdot_B = self.wheels.together_B(&wheel_torque)
             + self.gyros.change_B(angle, rate, &gimbal_acceleration);
         Acting {
-            outside: self.outside_wrench(t, k),
+            outside,
             thrust_B: self.thrusters.wrench(t, within),
             turning_B: -hdot_B - w.cross(self.inside_B(system)),
             wheel_torque,
@@ -76,37 +90,82 @@ impl<const J: usize> World<J> {
 
     /// Rates of the flow at displacement `d`, `t` (s) into the step that began `t0` (s) into the
     /// current set-points.
-    pub(crate) fn rates(&self, t0: f64, t: f64, d: &Flow<J>) -> Flow<J> {
-        let system = self.system.displaced(d);
-        let vehicle = self.vehicle();
-        let posture = vehicle.posture(&system, t0 + t);
-        let bent = kinematics(&self.robot, &posture);
-        let state = vehicle.moving(&bent, &system, self.inside_B(&system));
-        let k = bent.moving_as(&state);
-        let acting = self.acting(&system, &k, t0 + t, self.stretch_middle);
-        let found = self.dynamics_at(&k, t0 + t, &acting);
-        let mut flow = vehicle.flow(&system, d, &state, &found, acting.turning_B);
-        let p_NScm_N = system.p_NScm_N;
-        let mut pushed = (Vec3::zero(), Vec3::zero());
-        if let Some(outside) = &acting.outside {
-            pushed = about_centre_of_mass(&k, outside, p_NScm_N);
-            flow.work.z = power(&k, outside);
-        }
-        let (force, torque) = pushed;
-        let (push, turn) = of_thrusters(&k, &acting.thrust_B, p_NScm_N);
-        let beside = self.beside_the_centre_of_all(p_NScm_N, t0 + t);
-        flow.linear = force + push;
-        flow.angular = flow.angular + torque + turn;
+    pub(crate) fn rates(&self, places: &mut Places<J>, t0: f64, t: f64, d: &Flow<J>) -> Flow<J> {
+        let Places { configuration, forward } = places;
+        let (system, vehicle, robot) = (self.system.displaced(d), self.vehicle(), &self.robot);
+        let t = t0 + t;
+        let bent = vehicle.bent(&system, t);
+        configure(robot, &bent.q, configuration);
+        let state = vehicle.moving(&bent, &configuration.base, &system, self.inside_B(&system));
+        let pushed = self.pushed_from_outside(&state, t, system.p_NScm_N);
+        let outside = pushed.as_ref().map(|pushed| pushed.wrench);
+        let acting = self.acting(&system, &state, outside, (t, self.stretch_middle));
+        let (nu, drives) = (state.velocity(), vehicle.joint_drives(t));
+        let on_bodies = acting.on_bodies(self.actuator_torque_B);
+        accelerate(robot, configuration, &nu, &drives, self.base.mode(), on_bodies, forward);
+        let mut flow = vehicle.flow(&system, d, &state, &forward.found, acting.turning_B);
+        self.book(&mut flow, &state, &acting, pushed.as_ref(), (system.p_NScm_N, t));
         flow.wheel_momentum = acting.wheel_torque;
         flow.gimbal_angle = system.gimbal_rate;
         flow.gimbal_rate = acting.gimbal_acceleration;
+        flow
+    }
+
+    /// The wrench from outside at a state, if there is one, and what it does.
+    fn pushed_from_outside(
+        &self,
+        state: &State<f64, J>,
+        t: f64,
+        p_NScm_N: Vec3<f64>,
+    ) -> Option<Pushed<J>> {
+        if !self.is_pushed() {
+            return None;
+        }
+        let k = kinematics(&self.robot, state);
+        let wrench = self.outside_wrench(t, &k)?;
+        let (force, torque) = about_centre_of_mass(&k, &wrench, p_NScm_N);
+        Some(Pushed { wrench, force, torque, power: power(&k, &wrench) })
+    }
+
+    /// Impulses and work of thrusters and of what pushes from outside.
+    fn book(
+        &self,
+        flow: &mut Flow<J>,
+        state: &State<f64, J>,
+        acting: &Acting<J>,
+        pushed: Option<&Pushed<J>>,
+        (p_NScm_N, t): (Vec3<f64>, f64),
+    ) {
+        let none = Vec3::zero();
+        let (force, torque, power) =
+            pushed.map_or((none, none, 0.0), |on| (on.force, on.torque, on.power));
+        let (push, turn) = of_thrusters(state, &acting.thrust_B, p_NScm_N);
+        let beside = self.beside_the_centre_of_all(p_NScm_N, t);
+        flow.linear = force + push;
+        flow.angular = flow.angular + torque + turn;
         flow.from_outside = torque + beside.cross(force);
         flow.outside_impulse = force;
         flow.from_thrusters = turn + beside.cross(push);
         flow.thruster_impulse = push;
         flow.work.y += state.V_NB_B.power(&acting.thrust_B);
-        flow
+        flow.work.z = power;
     }
+}
+
+/// A wrench from outside on the bodies, and what it does: force (N) and torque about the centre of mass
+/// (N·m), inertial axes; power (W).
+struct Pushed<const J: usize> {
+    wrench: PerBody<SpatialForce<f64>, J>,
+    force: Vec3<f64>,
+    torque: Vec3<f64>,
+    power: f64,
+}
+
+/// Places for what the right-hand side works out, used again and again.
+#[derive(Debug, Default)]
+pub(crate) struct Places<const J: usize> {
+    configuration: Configuration<f64, J>,
+    forward: ForwardDynamics<f64, J>,
 }
 
 /// What acts on the vehicle at an instant, beside joint drives and the ideal attitude actuator.
@@ -125,8 +184,12 @@ pub(crate) struct Acting<const J: usize> {
 }
 
 impl<const J: usize> Acting<J> {
-    fn outside(&self) -> Outside<'_, f64, J> {
-        self.outside.as_ref().map_or_else(Outside::nothing, Outside::from)
+    /// All that acts on the bodies, with the torque of the ideal attitude actuator (N·m, base axes).
+    fn on_bodies(&self, actuator_torque_B: Vec3<f64>) -> Outside<'_, f64, J> {
+        let mut all = self.outside.as_ref().map_or_else(Outside::nothing, Outside::from);
+        all.base.torque += actuator_torque_B + self.turning_B;
+        all.base += self.thrust_B;
+        all
     }
 }
 
@@ -175,11 +238,11 @@ fn power<const J: usize>(
 
 /// Force (N) of the thrusters and its torque about the centre of mass (N·m), inertial axes.
 fn of_thrusters<const J: usize>(
-    k: &Kinematics<'_, f64, J>,
+    state: &State<f64, J>,
     thrust_B: &SpatialForce<f64>,
     p_NScm_N: Vec3<f64>,
 ) -> (Vec3<f64>, Vec3<f64>) {
-    let X_NB = &k.X_NB(BodyId::Base);
+    let X_NB = &state.X_NB;
     let force = X_NB.rotation * thrust_B.force;
     (force, X_NB.rotation * thrust_B.torque + (X_NB.translation - p_NScm_N).cross(force))
 }

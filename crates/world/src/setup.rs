@@ -1,7 +1,7 @@
 //! What a world is made of.
 
 use crate::stepper::Stepper;
-use wrasse_dynamics::{Frame, Kinematics, Payload, PerBody, Robot, State};
+use wrasse_dynamics::{Frame, Kinematics, MassProperties, PerBody, Robot, State};
 use wrasse_hardware::{Actuators, AttitudeActuator, GYROS, JointLimits, SetPointMotion, WHEELS};
 use wrasse_spatial::SpatialForce;
 
@@ -73,5 +73,5 @@ pub struct WorldSetup<'a, const J: usize> {
     /// State at the start.
     pub start: State<f64, J>,
     /// Payloads held from the start: where, and what.
-    pub held: &'a [(Frame<f64>, Payload<f64>)],
+    pub held: &'a [(Frame<f64>, MassProperties<f64>)],
 }

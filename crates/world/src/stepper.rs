@@ -42,7 +42,7 @@ pub(crate) fn equal_steps(period: f64, step: f64) -> (f64, f64) {
 /// # Source
 /// [`Hairer1993`](wrasse_spatial::references::Hairer1993) ch. II.1.
 #[inline(always)]
-pub fn runge_kutta_4<D: Displacement>(h: f64, rates: impl Fn(f64, &D) -> D) -> D {
+pub fn runge_kutta_4<D: Displacement>(h: f64, mut rates: impl FnMut(f64, &D) -> D) -> D {
     let (mut k, mut sum) = (D::zero(), D::zero());
     // One call for all stages: the rates are long, and stand once in what is built.
     for (node, share) in [(0.0, 6.0), (0.5, 3.0), (0.5, 3.0), (1.0, 6.0)] {
@@ -79,7 +79,7 @@ const ERROR: [f64; 7] = [
 ///
 /// # Source
 /// [`Hairer1993`](wrasse_spatial::references::Hairer1993) ch. II.5, table 5.2.
-pub fn dormand_prince<D: Displacement>(h: f64, rates: impl Fn(f64, &D) -> D) -> (D, D) {
+pub fn dormand_prince<D: Displacement>(h: f64, mut rates: impl FnMut(f64, &D) -> D) -> (D, D) {
     let mut k = [D::zero(); 7];
     let mut at = D::zero();
     for stage in 0..7 {

@@ -5,7 +5,7 @@
 //! inertia about its axis is therefore not part of the base's.
 
 use crate::command::Saturation;
-use wrasse_dynamics::Payload;
+use wrasse_dynamics::MassProperties;
 use wrasse_hardware::{List, ReactionWheel, WHEELS};
 use wrasse_spatial::{SpatialInertia, Sym3, Vec3};
 
@@ -30,13 +30,13 @@ impl Wheels {
         self.list.is_empty()
     }
     /// What the base lacks where the wheels count for themselves: their inertia about their axes.
-    pub(crate) fn taken_from_base(&self) -> Payload<f64> {
+    pub(crate) fn taken_from_base(&self) -> MassProperties<f64> {
         let taken = self.list.iter().fold(Sym3::zero(), |sum, wheel| {
             let (J, a) = (wheel.inertia, wheel.axis_B);
             sum - Sym3::symmetric_part(&a.outer(a)).scaled(J)
         });
         let M_F_F = SpatialInertia { rotational: taken, ..SpatialInertia::zero() };
-        Payload { M_F_F, I_parts_F: taken }
+        MassProperties { M_F_F, I_parts_F: taken }
     }
     /// Momentum about its axis (N·m·s) of each wheel at a speed against the base (rad/s).
     pub(crate) fn momenta(&self, speed: &[f64; WHEELS], w_NB_B: Vec3<f64>) -> [f64; WHEELS] {

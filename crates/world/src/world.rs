@@ -4,13 +4,15 @@ use crate::flow::Flow;
 use crate::free_body::FreeBody;
 use crate::gyros::Gyros;
 use crate::propellant::{Carried, InTank};
+use crate::rates::Places;
 use crate::setup::{BaseAttitude, Drive, Equipment, Instant, OutsideWrench, WorldSetup};
 use crate::stepper::{Displacement, Stepper};
 use crate::thrusters::Thrusters;
 use crate::wheels::Wheels;
 use std::fmt;
 use wrasse_dynamics::{
-    BodyId, Dynamics, Frame, Kinematics, Payload, PerBody, Robot, State, kinematics, momentum,
+    BodyId, Dynamics, Frame, Kinematics, MassProperties, PerBody, Robot, State, kinematics,
+    momentum,
 };
 use wrasse_hardware::{ActuatorReadings, AttitudeActuator, GYROS, JointLimits, WHEELS};
 use wrasse_spatial::{Pose, Quat, Real, SpatialForce, Vec3};
@@ -80,7 +82,7 @@ pub struct World<const J: usize> {
     pub(crate) robot: Robot<f64, J>,
     /// The vehicle without payloads and propellant, and what is in its grips.
     pub(crate) empty: Robot<f64, J>,
-    pub(crate) held: Vec<(Frame<f64>, Payload<f64>)>,
+    pub(crate) held: Vec<(Frame<f64>, MassProperties<f64>)>,
     /// Bodies that float by themselves.
     pub(crate) free: Vec<FreeBody>,
     pub(crate) limits: [JointLimits<f64>; J],
@@ -115,6 +117,8 @@ pub struct World<const J: usize> {
     pub(crate) into_period: f64,
     /// Last accepted step of the adaptive stepper (s).
     pub(crate) last_step: f64,
+    /// Places for the right-hand side; they are away while it is worked out.
+    pub(crate) places: Option<Box<Places<J>>>,
 }
 
 impl<const J: usize> fmt::Debug for World<J> {
@@ -172,6 +176,7 @@ impl<const J: usize> World<J> {
             period_start: 0.0,
             into_period: 0.0,
             last_step: 0.01,
+            places: Some(Box::default()),
         };
         world.start(&setup.start, &equipment);
         world
@@ -226,7 +231,7 @@ impl<const J: usize> World<J> {
         let t = self.into_period;
         let state = self.state();
         let k = kinematics(&self.robot, &state);
-        self.dynamics_at(&k, t, &self.acting(&self.system, &k, t, t))
+        self.dynamics_at(&k, t, &self.acting_at(&self.system, &k, t))
     }
     /// Torque of the attitude actuator on the base now (N·m, base axes), within its limits. What
     /// holds an attitude exactly is the base's entry of [`dynamics`](Self::dynamics).
@@ -248,7 +253,7 @@ impl<const J: usize> World<J> {
         let (t, s) = (self.into_period, &self.system);
         let state = self.state();
         let k = kinematics(&self.robot, &state);
-        let acting = self.acting(s, &k, t, t);
+        let acting = self.acting_at(s, &k, t);
         let wdot_NB_B = self.dynamics_at(&k, t, &acting).nudot.base.angular;
         let (acceleration, w_NB_B) = (acting.gimbal_acceleration, state.V_NB_B.angular);
         self.gyros.motor_torques(&s.gimbal_angle, &acceleration, w_NB_B, wdot_NB_B)
@@ -262,15 +267,19 @@ impl<const J: usize> World<J> {
     pub fn turning_torque_B(&self) -> Vec3<f64> {
         let (t, s) = (self.into_period, &self.system);
         let state = self.state();
-        self.acting(s, &kinematics(&self.robot, &state), t, t).turning_B
+        self.acting_at(s, &kinematics(&self.robot, &state), t).turning_B
     }
     /// What is in the grips: the frame that holds it, and its matter seen from there.
-    pub fn held(&self) -> &[(Frame<f64>, Payload<f64>)] {
+    pub fn held(&self) -> &[(Frame<f64>, MassProperties<f64>)] {
         &self.held
     }
     /// Momentum that the attitude actuator stores (N·m·s, base axes), zero at the start.
     pub fn stored_momentum_B(&self) -> Vec3<f64> {
         -self.system.quat_NB.to_matrix().transpose_mul(self.booked.from_actuator)
+    }
+    /// Whether anything pushes from outside.
+    pub(crate) fn is_pushed(&self) -> bool {
+        self.outside.is_some()
     }
     pub(crate) fn outside_wrench(
         &self,

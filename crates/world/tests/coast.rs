@@ -4,7 +4,7 @@
 mod atlas_class;
 
 use atlas_class::{J, coasting, cube, tool, unladen};
-use wrasse_dynamics::{Frame, Payload};
+use wrasse_dynamics::{Frame, MassProperties};
 use wrasse_hardware::ActuatorCommand;
 use wrasse_spatial::Vec3;
 use wrasse_world::{BaseAttitude, Drive, Equipment, Stepper, World, WorldSetup};
@@ -12,7 +12,7 @@ use wrasse_world::{BaseAttitude, Drive, Equipment, Stepper, World, WorldSetup};
 /// Drift over the coast: angular and linear momentum relative to the sum of the bodies' absolute
 /// momenta, centre of mass relative to the distance gone, energy relative to itself.
 fn drift(stepper: Stepper) -> [f64; 4] {
-    let held: [(Frame<f64>, Payload<f64>); 1] = [(tool(), cube(500.0))];
+    let held: [(Frame<f64>, MassProperties<f64>); 1] = [(tool(), cube(500.0))];
     let robot = unladen();
     let mut world: World<J> = World::new(&WorldSetup {
         robot: &robot,

@@ -7,7 +7,7 @@ mod equipped;
 
 use branched::{J, grip, load, moving, robot};
 use equipped::{busy, everything};
-use wrasse_dynamics::{BodyId, Frame, Payload, PerBody, Robot, State};
+use wrasse_dynamics::{BodyId, Frame, MassProperties, PerBody, Robot, State};
 use wrasse_hardware::List;
 use wrasse_spatial::{Pose, SpatialForce, SpatialVelocity, Vec3, vec3};
 use wrasse_world::{
@@ -22,7 +22,7 @@ fn setup<'a>(
     robot: &'a Robot<f64, J>,
     equipment: &Equipment,
     stepper: Stepper,
-    held: &'a [(Frame<f64>, Payload<f64>)],
+    held: &'a [(Frame<f64>, MassProperties<f64>)],
 ) -> WorldSetup<'a, J> {
     WorldSetup {
         robot,

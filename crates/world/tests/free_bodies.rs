@@ -1,7 +1,7 @@
 //! A body without torque, against closed forms: by itself, and as a robot without joints.
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
-use wrasse_dynamics::{Payload, PerBody, Robot, State};
+use wrasse_dynamics::{MassProperties, PerBody, Robot, State};
 use wrasse_hardware::ActuatorCommand;
 use wrasse_spatial::{Mat3, Pose, Quat, SpatialForce, SpatialVelocity, Sym3, Vec3, vec3};
 use wrasse_world::{BaseAttitude, Equipment, FreeBody, Instant, Stepper, World, WorldSetup};
@@ -19,12 +19,12 @@ fn twist(w: Vec3<f64>, v_cm: Vec3<f64>, p_cm: Vec3<f64>) -> SpatialVelocity<f64>
 
 /// A body of 300 kg with its centre of mass off its origin.
 const P_CM: Vec3<f64> = vec3(0.3, -0.2, 0.5);
-fn body(I: Sym3<f64>) -> Payload<f64> {
-    Payload::from_central(300.0, P_CM, I)
+fn body(I: Sym3<f64>) -> MassProperties<f64> {
+    MassProperties::from_central(300.0, P_CM, I)
 }
 
 /// Attitude after `t` (s), by both: as a free body in steps of `h` (s), and as a robot.
-fn both(matter: Payload<f64>, V: SpatialVelocity<f64>, t: f64, h: f64) -> [FreeBody; 2] {
+fn both(matter: MassProperties<f64>, V: SpatialVelocity<f64>, t: f64, h: f64) -> [FreeBody; 2] {
     let mut alone = FreeBody::new(matter, &X_NT(), &V);
     let steps = (t / h).round();
     let mut done = 0.0;

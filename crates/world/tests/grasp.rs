@@ -5,10 +5,13 @@ mod branched;
 
 use branched::{J, grip, load, moving, pose};
 use wrasse_dynamics::{
-    BodyId, Frame, Joint, JointKind, Payload, Robot, State, jacobian, kinematics, mass_matrix,
+    BodyId, Frame, Joint, JointKind, MassProperties, Robot, State, jacobian, kinematics,
+    mass_matrix,
 };
 use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
-use wrasse_spatial::{Pose, Quat, SpatialForce, SpatialInertia, SpatialVelocity, Sym3, Vec3, vec3};
+use wrasse_spatial::{
+    At, Pose, Quat, SpatialForce, SpatialInertia, SpatialVelocity, Sym3, Vec3, vec3,
+};
 use wrasse_world::{
     Account, BaseAttitude, Drive, Equipment, FreeBody, GraspRefused, GripOffset, Ledger, Stepper,
     World, WorldSetup,
@@ -64,11 +67,11 @@ fn joints_driven_by_torque_give_way_at_a_grasp() {
         let M = mass_matrix(&kinematics(robot, state));
         std::array::from_fn(|i| {
             let own: f64 = (0..J).map(|j| M.M_jj[i][j] * state.v[j]).sum();
-            own + state.V_NB_B.power(&M.M_bj[i])
+            own + state.V_NB_B.power(&M.M_bj.at(i))
         })
     };
     let k = kinematics(&alone, &before);
-    let columns = jacobian(&k, &frame).joints;
+    let columns = jacobian(&k, &frame).joints.columns();
     let h = SpatialForce::new(body.angular, body.linear)
         .about(k.pose(&frame).translation - body.p_NTcm_N);
     let (own, whole) = (momenta(&alone, &before), momenta(world.robot(), &after));
@@ -202,7 +205,8 @@ fn a_grasp_without_relative_motion_changes_no_velocity() {
 /// 9e-12, the share of the link of 1e-9 kg.
 #[test]
 fn a_drive_that_keeps_its_rate_can_put_energy_in_at_a_grasp() {
-    let ball = |mass: f64| Payload::from_central(mass, Vec3::zero(), Sym3::diagonal(1.0, 1.0, 1.0));
+    let ball =
+        |mass: f64| MassProperties::from_central(mass, Vec3::zero(), Sym3::diagonal(1.0, 1.0, 1.0));
     let slide =
         Joint::new(BodyId::Base, JointKind::Prismatic, Pose::identity(), vec3(1.0, 0.0, 0.0));
     let robot: Robot<f64, 1> =

@@ -5,7 +5,7 @@
 mod equipped;
 
 use equipped::{block, gyro, turning_block};
-use wrasse_dynamics::{BodyId, Joint, JointKind, Payload, Robot, State};
+use wrasse_dynamics::{BodyId, Joint, JointKind, MassProperties, Robot, State};
 use wrasse_hardware::{ActuatorCommand, ControlMomentGyro, GYROS, List, SetPoint, SetPointMotion};
 use wrasse_spatial::{Mat3, Pose, SpatialVelocity, Sym3, Vec3, vec3};
 use wrasse_world::{
@@ -149,8 +149,8 @@ fn mount_pose((g, s): (Vec3<f64>, Vec3<f64>)) -> Pose<f64> {
     Pose::new(Mat3::from_columns(s, g.cross(s), g), g * 0.3)
 }
 
-fn bus() -> Payload<f64> {
-    Payload::from_central(400.0, vec3(0.1, 0.0, -0.1), Sym3::diagonal(900.0, 1100.0, 1200.0))
+fn bus() -> MassProperties<f64> {
+    MassProperties::from_central(400.0, vec3(0.1, 0.0, -0.1), Sym3::diagonal(900.0, 1100.0, 1200.0))
 }
 
 fn flying<const J: usize>(robot: &Robot<f64, J>, v: [f64; J], equipment: &Equipment) -> World<J> {
@@ -181,11 +181,11 @@ fn as_links(odd: f64) -> World<4> {
         let on = BodyId::Link(links.len());
         links.push((
             revolute(BodyId::Base, mount_pose(mount), vec3(0.0, 0.0, 1.0)),
-            Payload::from_central(3.0, Vec3::zero(), gimbal),
+            MassProperties::from_central(3.0, Vec3::zero(), gimbal),
         ));
         links.push((
             revolute(on, Pose::identity(), vec3(1.0, 0.0, 0.0)),
-            Payload::from_central(12.0, Vec3::zero(), rotor),
+            MassProperties::from_central(12.0, Vec3::zero(), rotor),
         ));
     }
     let robot = Robot::new(bus(), &links).expect("four joints fit");
@@ -197,7 +197,7 @@ fn as_equipment(odd: f64) -> World<1> {
     let mut bus = bus();
     let mut list = vec![];
     for mount in mounts() {
-        let matter = Payload::from_central(15.0, Vec3::zero(), gimbal_matter(odd));
+        let matter = MassProperties::from_central(15.0, Vec3::zero(), gimbal_matter(odd));
         bus = bus.and(&matter.seen_from(&mount_pose(mount)));
         list.push(ControlMomentGyro {
             momentum: MOMENTUM,

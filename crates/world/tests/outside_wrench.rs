@@ -1,13 +1,14 @@
 //! A wrench from outside that jumps in the middle of steps.
 
-use wrasse_dynamics::{BodyId, Frame, Payload, PerBody, Robot, State};
+use wrasse_dynamics::{BodyId, Frame, MassProperties, PerBody, Robot, State};
 use wrasse_hardware::ActuatorCommand;
 use wrasse_spatial::{Pose, SpatialForce, Sym3, Vec3, vec3};
 use wrasse_world::{BaseAttitude, Equipment, Instant, Stepper, World, WorldSetup};
 
 /// 10 N from 0.203 s for 4 ms, and again from 0.5 s to 0.6 s where steps end anyway.
 fn pushed(stepper: Stepper, told: bool) -> (World<1>, wrasse_world::Ledger) {
-    let base = Payload::from_central(50.0, vec3(0.1, 0.0, 0.0), Sym3::diagonal(4.0, 5.0, 6.0));
+    let base =
+        MassProperties::from_central(50.0, vec3(0.1, 0.0, 0.0), Sym3::diagonal(4.0, 5.0, 6.0));
     let robot: Robot<f64, 1> = Robot::new(base, &[]).expect("a base alone");
     let mut world = World::new(&WorldSetup {
         robot: &robot,

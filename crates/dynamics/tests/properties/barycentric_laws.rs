@@ -8,7 +8,7 @@ use wrasse_dynamics::{
     BodyId, Frame, JointKind, Kinematics, attitude_held_jacobian, barycentric_vectors, jacobian,
     kinematics, mass_matrix, virtual_manipulator,
 };
-use wrasse_spatial::{Dual, Pose, Vec3};
+use wrasse_spatial::{At, Dual, Pose, Vec3};
 
 /// Trees whose joints only turn.
 fn turning() -> impl Strategy<Value = Recipe> {
@@ -134,7 +134,7 @@ fn the_attitude_held_jacobian_turns_the_vectors_behind_each_joint() {
             let z = k.X_NB(BodyId::Link(j)).rotation * s.robot.joint(j).axis_B;
             let behind = s.robot.bodies().filter(|b| s.robot.path_to_base(*b).any(|at| at == j));
             let arm = behind.fold(Vec3::zero(), |sum, b| sum + k.X_NB(b).rotation * lambda[b]);
-            worst.max(gap_at(&held[j].linear, &z.cross(arm), 1.0))
+            worst.max(gap_at(&held.linear.at(j), &z.cross(arm), 1.0))
         })
     });
 }

@@ -7,7 +7,7 @@ use crate::random_robot::{JOINTS, Recipe, Scene};
 use proptest::prelude::Strategy;
 use std::array;
 use wrasse_dynamics::{
-    BodyId, Frame, Generalized, Joint, JointKind, Payload, PerBody, Robot, State,
+    BodyId, Frame, Generalized, Joint, JointKind, MassProperties, PerBody, Robot, State,
     attitude_held_jacobian, barycentric_vectors, bias_acceleration, bias_force, forward_dynamics,
     free_floating_dynamics, generalized_jacobian, inverse_dynamics, jacobian, kinematics,
     kinetic_energy, mass_matrix, momentum, printed_reaction,
@@ -83,13 +83,13 @@ fn putting_a_load_down_restores_the_robot() {
 fn with_empty_link(s: &Scene) -> Robot<f64, JOINTS> {
     let matter = |body| {
         let M = s.robot.inertia(body);
-        Payload::from_central(M.mass, M.centre_of_mass(), M.central())
+        MassProperties::from_central(M.mass, M.centre_of_mass(), M.central())
     };
     let mut links: Vec<_> =
         s.robot.joints().map(|j| (*s.robot.joint(j), matter(BodyId::Link(j)))).collect();
     let axis = s.X_elsewhere.translation;
     let joint = Joint::new(s.frame.body, JointKind::Revolute, s.frame.X_BF, axis);
-    links.push((joint, Payload::default()));
+    links.push((joint, MassProperties::default()));
     Robot::new(matter(BodyId::Base), &links).unwrap()
 }
 
@@ -151,8 +151,8 @@ fn everything<T: Scalar>(s: &Scene) -> Vec<Vec<f64>> {
         plain(&h.angular.to_array()),
         plain(&h.linear.to_array()),
         vec![kinetic_energy(&k).to_f64()],
-        columns(generalized_jacobian(&J_frame, &M)),
-        columns(attitude_held_jacobian(&J_frame, &M, &state.X_NB.rotation)),
+        columns(generalized_jacobian(&J_frame, &M).columns()),
+        columns(attitude_held_jacobian(&J_frame, &M, &state.X_NB.rotation).columns()),
         plain(&barycentric_vectors(&k, &frame).links.map(Vec3::to_array)[n - 1]),
         plain(&printed.N_r_arm_cm.to_array()),
         reduced.H.iter().flat_map(|row| plain(row)).collect(),

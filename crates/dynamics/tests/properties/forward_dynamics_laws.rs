@@ -7,7 +7,7 @@ use wrasse_dynamics::{
     BaseMode, Generalized, JointDrive, PerBody, bias_force, driven_dynamics, forward_dynamics,
     inverse_dynamics, kinematics, mass_matrix,
 };
-use wrasse_spatial::{SpatialForce, Vec3};
+use wrasse_spatial::{SpatialForce, SpatialVelocity, Vec3};
 
 /// Some joints follow the scene's accelerations, the others feel the scene's efforts.
 fn mixed_drives(scene: &Scene, effort: &[f64; JOINTS]) -> [JointDrive<f64>; JOINTS] {
@@ -49,13 +49,12 @@ fn forward_dynamics_solves_the_equations_of_motion() {
 /// that comes out gives the forces that came out. Measured 7e-15.
 #[test]
 fn driven_dynamics_agrees_with_inverse_dynamics_of_what_it_finds() {
-    for mode in [BaseMode::Free, BaseMode::AttitudeHeld] {
+    for mode in [BaseMode::Free, BaseMode::AttitudeHeld, BaseMode::Fixed] {
         for_every_robot(1e-13, |s| {
             let k = kinematics(&s.robot, &s.state);
             let found = driven_dynamics(&k, &mixed_drives(s, &s.xi), mode, &s.external);
             let inverse = inverse_dynamics(&k, &found.nudot, &s.external);
-            let scale =
-                s.robot.bodies().fold(1.0, |m: f64, b| m.max(size(&inverse.F_B_B(&s.robot, b))));
+            let scale = s.robot.bodies().fold(1.0, |m: f64, b| m.max(size(&inverse.F_B_B(&k, b))));
             gap_at(&found.force, &inverse.force, scale)
         });
     }
@@ -65,7 +64,7 @@ fn driven_dynamics_agrees_with_inverse_dynamics_of_what_it_finds() {
 /// Measured 0: they are handed through.
 #[test]
 fn what_is_given_is_kept() {
-    for mode in [BaseMode::Free, BaseMode::AttitudeHeld] {
+    for mode in [BaseMode::Free, BaseMode::AttitudeHeld, BaseMode::Fixed] {
         for_every_robot(0.0, |s| {
             let k = kinematics(&s.robot, &s.state);
             let found = driven_dynamics(&k, &mixed_drives(s, &s.xi), mode, &s.external);
@@ -83,6 +82,7 @@ fn what_is_given_is_kept() {
                     found.nudot.base.angular == Vec3::zero()
                         && found.force.base.force == Vec3::zero()
                 }
+                BaseMode::Fixed => found.nudot.base == SpatialVelocity::zero(),
             };
             f64::from(!(kept && base))
         });
@@ -92,7 +92,7 @@ fn what_is_given_is_kept() {
 /// The motion of mixed drives is that of the efforts they took. Measured 2e-14.
 #[test]
 fn the_efforts_of_joints_that_follow_give_the_same_motion_when_all_are_forced() {
-    for mode in [BaseMode::Free, BaseMode::AttitudeHeld] {
+    for mode in [BaseMode::Free, BaseMode::AttitudeHeld, BaseMode::Fixed] {
         for_every_robot(1e-12, |s| {
             let k = kinematics(&s.robot, &s.state);
             let found = driven_dynamics(&k, &mixed_drives(s, &s.xi), mode, &s.external);

@@ -5,12 +5,12 @@ use crate::measure::{dense, dense_columns, dense_joints, for_every_robot, gap, g
 use crate::random_robot::{JOINTS, Scene};
 use nalgebra::{DMatrix, DVector};
 use wrasse_dynamics::{
-    BodyId, Generalized, Jacobian, Kinematics, MassMatrix, Momentum, Payload, PerBody, Robot,
-    State, angular_momentum_per_rate, attitude_held_jacobian, bias_acceleration, bias_force,
+    BodyId, Generalized, Jacobian, Kinematics, MassMatrix, MassProperties, Momentum, PerBody,
+    Robot, State, angular_momentum_per_rate, attitude_held_jacobian, bias_acceleration, bias_force,
     forward_dynamics, free_floating_dynamics, generalized_jacobian, jacobian, kinematics,
     mass_matrix, momentum, velocity_from_momentum,
 };
-use wrasse_spatial::{Dual, SpatialForce, SpatialMomentum, SpatialVelocity, Sym3, Vec3};
+use wrasse_spatial::{At, Dual, SpatialForce, SpatialMomentum, SpatialVelocity, Sym3, Vec3};
 
 /// What every law here starts from.
 struct Posture<'a> {
@@ -27,10 +27,10 @@ impl<'a> Posture<'a> {
         Self { k, M, J_frame, n: s.robot.joint_count() }
     }
     fn free(&self) -> [SpatialVelocity<f64>; JOINTS] {
-        generalized_jacobian(&self.J_frame, &self.M)
+        generalized_jacobian(&self.J_frame, &self.M).columns()
     }
     fn held(&self) -> [SpatialVelocity<f64>; JOINTS] {
-        attitude_held_jacobian(&self.J_frame, &self.M, &self.k.state.X_NB.rotation)
+        attitude_held_jacobian(&self.J_frame, &self.M, &self.k.state.X_NB.rotation).columns()
     }
     /// `J q̇`.
     fn times(&self, columns: &[SpatialVelocity<f64>; JOINTS]) -> SpatialVelocity<f64> {
@@ -112,7 +112,7 @@ fn the_attitude_held_jacobian_is_that_of_the_tip_less_that_of_the_centre_of_mass
                 let state = State { V_NB_B: SpatialVelocity::zero(), v, ..s.state };
                 let moving = in_time(&state, &Generalized::default());
                 let v_cm = kinematics(&robot, &moving).centre_of_mass().1.rate();
-                let tip = posture.J_frame.joints[j];
+                let tip = posture.J_frame.joints.at(j);
                 SpatialVelocity::new(tip.angular, tip.linear - v_cm)
             })
             .collect();
@@ -140,7 +140,8 @@ fn the_attitude_held_jacobian_gives_the_twist_at_any_attitude_rate_and_momentum(
 fn a_force_from_outside_meets_less_inertia_than_one_from_the_joints() {
     for_every_robot(1e-13, |s| {
         let posture = Posture::new(s);
-        let columns = [&posture.J_frame.base()[..], &posture.J_frame.joints[..posture.n]].concat();
+        let columns =
+            [&posture.J_frame.base()[..], &posture.J_frame.joints.columns()[..posture.n]].concat();
         let J = dense_columns(&columns);
         let whole = &J * dense(&posture.M).cholesky().unwrap().solve(&J.transpose());
         let c = bias_force(&posture.k);
@@ -203,7 +204,7 @@ fn a_free_flyer_presses_on_a_wall_with_less_than_its_joints_ask_for() {
         let all = |column: &SpatialVelocity<f64>| column.power(&n);
         let wall = Generalized {
             base: SpatialForce::from_array(posture.J_frame.base().each_ref().map(all)),
-            joints: posture.J_frame.joints.each_ref().map(all),
+            joints: posture.J_frame.joints.columns().each_ref().map(all),
         };
         let along = |force| {
             let nudot = forward_dynamics(&posture.k, &force, &none);
@@ -244,13 +245,13 @@ fn heavy(scene: &Scene, s: f64, mass: bool) -> (DMatrix<f64>, DMatrix<f64>, DMat
     let M = scene.robot.inertia(BodyId::Base);
     let (m, p, I) = (M.mass, M.centre_of_mass(), M.central());
     let grown = if mass { m * s } else { m };
-    let base = Payload::from_central(grown, p, I.scaled(s));
+    let base = MassProperties::from_central(grown, p, I.scaled(s));
     let links: Vec<_> = scene
         .robot
         .joints()
         .map(|j| {
             let M = scene.robot.inertia(BodyId::Link(j));
-            let matter = Payload::from_central(M.mass, M.centre_of_mass(), M.central());
+            let matter = MassProperties::from_central(M.mass, M.centre_of_mass(), M.central());
             (*scene.robot.joint(j), matter)
         })
         .collect();
@@ -258,7 +259,7 @@ fn heavy(scene: &Scene, s: f64, mass: bool) -> (DMatrix<f64>, DMatrix<f64>, DMat
     let scene = Scene { robot, ..*scene };
     let posture = Posture::new(&scene);
     let n = posture.n;
-    let fixed = dense_columns(&posture.J_frame.joints[..n]);
+    let fixed = dense_columns(&posture.J_frame.joints.columns()[..n]);
     (dense_columns(&posture.free()[..n]), dense_columns(&posture.held()[..n]), fixed)
 }
 

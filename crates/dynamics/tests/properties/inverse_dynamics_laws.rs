@@ -53,7 +53,7 @@ fn every_joint_carries_the_momentum_rate_of_the_bodies_behind_it() {
                     gap_at(&dynamics.force.joints[j], &S.power(&F_B), scale)
                 }
             };
-            worst.max(along).max(gap_at(&dynamics.F_B_B(&s.robot, body), &F_B, scale))
+            worst.max(along).max(gap_at(&dynamics.F_B_B(&k, body), &F_B, scale))
         })
     });
 }
@@ -72,7 +72,8 @@ fn the_forces_are_mass_times_acceleration_plus_bias_less_what_comes_from_outside
             let (R, F) = (k.X_NB(body).rotation, s.external[body]);
             let F_N = SpatialForce::new(R * F.torque, R * F.force);
             let of_base = J_body.base();
-            let columns = of_base.iter().chain(&J_body.joints[..s.robot.joint_count()]);
+            let of_joints = J_body.joints.columns();
+            let columns = of_base.iter().chain(&of_joints[..s.robot.joint_count()]);
             for (row, column) in columns.enumerate() {
                 sum[row] -= column.power(&F_N);
             }

@@ -31,7 +31,8 @@ fn momentum_in_time(scene: &Scene, nudot: &GeneralizedVelocity<f64, 12>) -> Mome
 fn the_momentum_matrix_times_the_rates_is_the_momentum_of_the_bodies() {
     for_every_robot(1e-13, |s| {
         let k = kinematics(&s.robot, &s.state);
-        let (base, joints) = momentum_matrix(&mass_matrix(&k), &s.state.X_NB.rotation);
+        let A = momentum_matrix(&mass_matrix(&k), &s.state.X_NB.rotation);
+        let (base, joints) = (A.base, A.joints.columns());
         let rates = s.state.V_NB_B.to_array();
         let mut h = SpatialMomentum::zero();
         base.iter().zip(rates).for_each(|(column, rate)| h += *column * rate);

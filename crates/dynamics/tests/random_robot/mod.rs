@@ -3,8 +3,8 @@
 
 use std::array;
 use wrasse_dynamics::{
-    BodyId, Frame, Generalized, GeneralizedVelocity, Joint, JointKind, Payload, PerBody, Robot,
-    State,
+    BodyId, Frame, Generalized, GeneralizedVelocity, Joint, JointKind, MassProperties, PerBody,
+    Robot, State,
 };
 use wrasse_spatial::{Pose, Quat, SpatialForce, SpatialVelocity, Sym3, Vec3, vec3};
 
@@ -33,7 +33,7 @@ pub(crate) struct Scene {
     /// A tool on the last body.
     pub(crate) frame: Frame<f64>,
     /// Something to hold there.
-    pub(crate) load: Payload<f64>,
+    pub(crate) load: MassProperties<f64>,
     /// A joint vector for whatever a law needs.
     pub(crate) xi: [f64; JOINTS],
     /// Which joints follow, where some are driven by force.
@@ -120,7 +120,7 @@ impl Random {
         SpatialForce::new(self.vector(size), self.vector(size))
     }
     /// One rigid part of about this mass (kg) and size (m): a box and two point masses.
-    pub(crate) fn matter(&mut self, mass: f64, size: f64) -> Payload<f64> {
+    pub(crate) fn matter(&mut self, mass: f64, size: f64) -> MassProperties<f64> {
         let [a, b, c] = array::from_fn(|_| self.between(0.2 * size, size));
         let twelfth = mass / 12.0;
         let I = Sym3::diagonal(
@@ -129,13 +129,13 @@ impl Random {
             twelfth * (a * a + b * b),
         );
         let box_at = self.pose(0.5 * size);
-        let mut whole = Payload::from_central(mass, Vec3::zero(), I).seen_from(&box_at);
+        let mut whole = MassProperties::from_central(mass, Vec3::zero(), I).seen_from(&box_at);
         for _ in 0..2 {
             let point = self.vector(size);
             let m = self.between(0.01, 0.2) * mass;
-            whole = whole.and(&Payload::from_central(m, point, Sym3::zero()));
+            whole = whole.and(&MassProperties::from_central(m, point, Sym3::zero()));
         }
         let M = whole.M_F_F;
-        Payload::from_central(M.mass, M.centre_of_mass(), M.central())
+        MassProperties::from_central(M.mass, M.centre_of_mass(), M.central())
     }
 }

@@ -2,7 +2,7 @@
 
 use roxmltree::{Document, Node};
 use std::collections::BTreeMap;
-use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, Payload, Robot};
+use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, MassProperties, Robot};
 use wrasse_spatial::{Mat3, Pose, Sym3, Vec3, vec3};
 
 /// Room for the joints of every golden vehicle.
@@ -22,7 +22,7 @@ pub(crate) fn read(text: &str) -> UrdfRobot {
     let named = |tag: &'static str| root.children().filter(move |n| n.has_tag_name(tag));
     let is_child = |link: &str| named("joint").any(|j| link_of(j, "child") == link);
     let base = named("link").map(|l| l.attribute("name").unwrap()).find(|l| !is_child(l)).unwrap();
-    let (mut links, mut base_matter) = (vec![], Payload::default());
+    let (mut links, mut base_matter) = (vec![], MassProperties::default());
     let (mut joint_names, mut frames) = (vec![], BTreeMap::new());
     let mut waiting = vec![(base, BodyId::Base, Pose::identity())];
     while let Some((link, body, X_BL)) = waiting.pop() {
@@ -32,7 +32,7 @@ pub(crate) fn read(text: &str) -> UrdfRobot {
         match body {
             BodyId::Base => base_matter = base_matter.and(&matter),
             BodyId::Link(j) => {
-                let (_, whole): &mut (Joint<f64>, Payload<f64>) = &mut links[j];
+                let (_, whole): &mut (Joint<f64>, MassProperties<f64>) = &mut links[j];
                 *whole = whole.and(&matter);
             }
         }
@@ -49,7 +49,7 @@ pub(crate) fn read(text: &str) -> UrdfRobot {
             let axis = joint.children().find(|n| n.has_tag_name("axis")).unwrap();
             let axis = numbers(axis.attribute("xyz").unwrap());
             waiting.push((child, BodyId::Link(links.len()), Pose::identity()));
-            links.push((Joint::new(body, kind, X_BC, axis), Payload::default()));
+            links.push((Joint::new(body, kind, X_BC, axis), MassProperties::default()));
             joint_names.push(joint.attribute("name").unwrap().to_owned());
         }
     }
@@ -85,9 +85,9 @@ fn origin(node: Node) -> Pose<f64> {
 }
 
 /// What a link is made of, seen from the link's frame.
-fn matter(link: Node) -> Payload<f64> {
+fn matter(link: Node) -> MassProperties<f64> {
     let Some(inertial) = link.children().find(|n| n.has_tag_name("inertial")) else {
-        return Payload::default();
+        return MassProperties::default();
     };
     let child = |tag| inertial.children().find(|n| n.has_tag_name(tag)).unwrap();
     let number = |node: Node, key| node.attribute(key).unwrap().parse::<f64>().unwrap();
@@ -101,5 +101,5 @@ fn matter(link: Node) -> Payload<f64> {
         zz: number(i, "izz"),
     };
     let mass = number(child("mass"), "value");
-    Payload::from_central(mass, Vec3::zero(), I).seen_from(&origin(inertial))
+    MassProperties::from_central(mass, Vec3::zero(), I).seen_from(&origin(inertial))
 }

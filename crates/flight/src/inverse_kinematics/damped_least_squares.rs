@@ -1,7 +1,7 @@
 //! Joint positions for a tool pose, for any arm: damped least squares with joint travel kept.
 
 use wrasse_dynamics::{
-    Cholesky, Frame, Robot, State, attitude_held_jacobian, jacobian, kinematics, mass_matrix,
+    Cholesky, Frame, Robot, State, attitude_held_jacobian, base_rows, jacobian, kinematics,
 };
 use wrasse_hardware::JointLimits;
 use wrasse_spatial::{Pose, Quat, Scalar, SpatialVelocity, Vec3};
@@ -155,13 +155,13 @@ impl<T: Scalar, const J: usize> Problem<'_, T, J> {
         let J_frame = jacobian(&k, self.tool);
         let away = self.X_NE.translation - X_NE.translation;
         let (way, columns) = match self.anchor {
-            Anchor::Base => (away, J_frame.joints),
+            Anchor::Base => (away, J_frame.joints.columns()),
             Anchor::AttitudeAndCentreOfMass => {
-                let M = mass_matrix(&k);
+                let M = base_rows(&k);
                 let columns = attitude_held_jacobian(&J_frame, &M, &state.X_NB.rotation);
                 // The base recoils by what the centre of mass would have moved.
                 let recoil = self.p_NScm - k.centre_of_mass().1;
-                (away - recoil, self.on_way(&columns))
+                (away - recoil, self.on_way(&columns.columns()))
             }
         };
         (SpatialVelocity::new(Quat::from_matrix(&turn).log(), way), columns)

@@ -4,7 +4,7 @@
 use super::rate_conditions::RateConditions;
 use core::fmt;
 use wrasse_dynamics::{
-    Frame, Kinematics, angular_momentum_per_rate, attitude_held_jacobian, jacobian, mass_matrix,
+    Frame, Kinematics, angular_momentum_per_rate, attitude_held_jacobian, base_rows, jacobian,
 };
 use wrasse_spatial::{Scalar, SpatialForce, SpatialVelocity, Vec3};
 
@@ -160,8 +160,8 @@ pub fn posture_relief<T: Scalar, const J: usize>(
     F_E_N: &SpatialForce<T>,
     joints: &ReliefUse<T, J>,
 ) -> Result<Relief<T, J>, NoRelief<T>> {
-    let M = mass_matrix(k);
-    let J_held = attitude_held_jacobian(&jacobian(k, tool), &M, &k.state.X_NB.rotation);
+    let M = base_rows(k);
+    let J_held = attitude_held_jacobian(&jacobian(k, tool), &M, &k.state.X_NB.rotation).columns();
     let conditions = held(&angular_momentum_per_rate(&M), &J_held, joints.task);
     let demand_N = momentum_rate(k, tool, F_E_N);
     // Only what stands across the force can change: (v × f) does.

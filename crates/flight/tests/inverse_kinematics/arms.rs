@@ -1,7 +1,7 @@
 //! The arms that the tests bend, and how far a tool is from its target.
 
 use proptest::test_runner::{Config, RngSeed};
-use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, Payload, Robot, State, kinematics};
+use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, MassProperties, Robot, State, kinematics};
 use wrasse_spatial::{Mat3, Pose, Quat, Sym3, Vec3, vec3};
 
 pub(crate) const X: Vec3<f64> = vec3(1.0, 0.0, 0.0);
@@ -19,8 +19,8 @@ pub(crate) fn cases() -> Config {
 }
 
 /// A cylinder-like body: mass (kg), centre of mass (m), inertia about x and about the others.
-fn body(mass: f64, p_cm: Vec3<f64>, about_x: f64, across: f64) -> Payload<f64> {
-    Payload::from_central(mass, p_cm, Sym3::diagonal(about_x, across, across))
+fn body(mass: f64, p_cm: Vec3<f64>, about_x: f64, across: f64) -> MassProperties<f64> {
+    MassProperties::from_central(mass, p_cm, Sym3::diagonal(about_x, across, across))
 }
 
 /// The ATLAS-class servicer: 1500 kg bus, seven joints x, y, x | y | x, y, x with 0.45, 0.40 and
@@ -31,7 +31,8 @@ pub(crate) fn atlas_class() -> (Robot<f64, 7>, Frame<f64>) {
 
 /// The same with the centres of mass of the links moved off their axes (m).
 pub(crate) fn atlas_class_with_offset(off: Vec3<f64>) -> (Robot<f64, 7>, Frame<f64>) {
-    let bus = Payload::from_central(1500.0, Vec3::zero(), Sym3::diagonal(640.0, 725.0, 725.0));
+    let bus =
+        MassProperties::from_central(1500.0, Vec3::zero(), Sym3::diagonal(640.0, 725.0, 725.0));
     // From the joint before (m), axis, mass (kg), centre of mass along x (m), inertias (kg m²).
     let rows = [
         (vec3(0.9, 0.5, 0.0), X, 10.0, 0.0, 0.018, 0.021),
@@ -54,9 +55,9 @@ pub(crate) fn atlas_class_with_offset(off: Vec3<f64>) -> (Robot<f64, 7>, Frame<f
 }
 
 /// A cube of 1 m gripped at a face: its centre of mass is 0.5 m ahead, and `aside` (m) off.
-pub(crate) fn cube(mass: f64, aside: Vec3<f64>) -> Payload<f64> {
+pub(crate) fn cube(mass: f64, aside: Vec3<f64>) -> MassProperties<f64> {
     let I = mass / 6.0;
-    Payload::from_central(mass, vec3(0.5, 0.0, 0.0) + aside, Sym3::diagonal(I, I, I))
+    MassProperties::from_central(mass, vec3(0.5, 0.0, 0.0) + aside, Sym3::diagonal(I, I, I))
 }
 
 /// An industrial lightweight arm, axes z, y, z | y | z, y, z, its frames placed off the points
@@ -98,8 +99,9 @@ fn fifth() -> Vec3<f64> {
 /// The ATLAS-class arm behind a two-joint arm that holds 150 kg.
 pub(crate) fn two_arms() -> (Robot<f64, 9>, Frame<f64>) {
     let (one, tool) = atlas_class();
-    let matter = |body| Payload { M_F_F: *one.inertia(body), ..Payload::default() };
-    let heavy = Payload::from_central(150.0, vec3(0.3, 0.2, -0.1), Sym3::diagonal(9.0, 8.0, 7.0));
+    let matter = |body| MassProperties { M_F_F: *one.inertia(body), ..MassProperties::default() };
+    let heavy =
+        MassProperties::from_central(150.0, vec3(0.3, 0.2, -0.1), Sym3::diagonal(9.0, 8.0, 7.0));
     let mount = Pose::from_quat(Quat::exp(vec3(0.3, 0.1, -0.2)), vec3(0.9, -0.5, 0.0));
     let mut links = vec![
         (Joint::new(BodyId::Base, JointKind::Revolute, mount, vec3(0.2, 0.3, 0.9)), heavy),

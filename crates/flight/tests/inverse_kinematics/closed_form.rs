@@ -278,14 +278,16 @@ fn chain(
         let joint = Joint::new(parent, kind, Pose::new(Mat3::identity(), p), axes[j]);
         links.push((
             joint,
-            wrasse_dynamics::Payload {
+            wrasse_dynamics::MassProperties {
                 M_F_F: *like.inertia(BodyId::Link(j)),
                 ..Default::default()
             },
         ));
     }
-    let base =
-        wrasse_dynamics::Payload { M_F_F: *like.inertia(BodyId::Base), ..Default::default() };
+    let base = wrasse_dynamics::MassProperties {
+        M_F_F: *like.inertia(BodyId::Base),
+        ..Default::default()
+    };
     (Robot::new(base, &links).expect("parents come first"), tool)
 }
 

@@ -4,7 +4,7 @@ use crate::random_robot::{JOINTS, Random, Recipe, Scene};
 use crate::worst::Worst;
 use std::array;
 use wrasse_dynamics::{
-    BaseMode, BodyId, Frame, Joint, JointDrive, JointKind, Payload, PerBody, Robot, State,
+    BaseMode, BodyId, Frame, Joint, JointDrive, JointKind, MassProperties, PerBody, Robot, State,
     bias_force, driven_dynamics, free_floating_dynamics, kinematics, mass_matrix,
 };
 use wrasse_flight::{ArmLaw, Tuning, computed_torque};
@@ -159,7 +159,7 @@ fn a_terrestrial_law_on_a_free_flyer_multiplies_accelerations_by_the_ratio_of_in
 fn one_joint_of_a_free_flyer_is_accelerated_too_much_by_the_closed_form_ratio() {
     let (m0, I0, a) = (40.0, 6.0, 0.5);
     let (m1, I1, b) = (10.0, 0.8, 0.7);
-    let flat = |mass, p, I| Payload::from_central(mass, p, Sym3::diagonal(I, I, I));
+    let flat = |mass, p, I| MassProperties::from_central(mass, p, Sym3::diagonal(I, I, I));
     let mount = Pose { translation: vec3(a, 0.0, 0.0), ..Pose::identity() };
     let joint = Joint::new(BodyId::Base, JointKind::Revolute, mount, vec3(0.0, 0.0, 1.0));
     let link = flat(m1, vec3(b, 0.0, 0.0), I1);

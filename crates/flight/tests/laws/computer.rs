@@ -157,7 +157,9 @@ fn an_attitude_held_law_believes_in_a_still_attitude_and_a_straight_centre_of_ma
     off.is_below(1e-9);
 }
 
-/// Summed body by body. Measured 6.2e-14 N·m·s, 2.6e-14 N·s, and the centre of mass 6.0e-9 m off.
+/// Summed body by body. The base's twist at the end of a period is that of the posture predicted for it:
+/// off by its distance from the posture that comes, h³ of the joints' jerk over six. Measured 1.2e-6 N·m·s
+/// of 3.6, 6.3e-7 N·s of 9.3, and the centre of mass 6.3e-9 m off.
 #[test]
 fn a_free_floating_law_believes_in_constant_momentum() {
     let (robot, start) = (robot(), drifting());
@@ -170,16 +172,16 @@ fn a_free_floating_law_believes_in_constant_momentum() {
         let gone = h.linear * (PERIOD * (k + 1) as f64 / h.mass);
         off.see((now.p_NScm_N - h.p_NScm_N - gone).norm());
     }
-    angular.is_below(1e-9);
-    linear.is_below(1e-9);
+    angular.is_below(1e-5);
+    linear.is_below(1e-5);
     off.is_below(1e-7);
 }
 
 /// A tool that is still in inertial space is left at rates against the drift; that the next phase stops
-/// the joints at once costs the centre of mass half a period of what the base gains by it. Measured
-/// 7.8e-6 m, and no momentum: 7.8e-14 N·m·s.
+/// the joints at once moves the centre of mass by 1.0e-8 m, and for one period the base's twist is that of
+/// the posture in which they went on: measured 2.7e-4 N·m·s of 3.6.
 #[test]
-fn joints_that_stop_at_once_cost_half_a_period_of_the_drift() {
+fn joints_that_stop_at_once_cost_one_period_of_the_drift() {
     let (robot, start) = (robot(), drifting());
     let h = momentum(&kinematics(&robot, &start));
     let (mut angular, mut off) = (Worst::none(), Worst::none());
@@ -189,8 +191,8 @@ fn joints_that_stop_at_once_cost_half_a_period_of_the_drift() {
         let gone = h.linear * (PERIOD * (k + 1) as f64 / h.mass);
         off.see((now.p_NScm_N - h.p_NScm_N - gone).norm());
     }
-    angular.is_below(1e-9);
-    off.is_below(2e-5);
+    angular.is_below(1e-2);
+    off.is_below(1e-7);
 }
 
 /// Attitude of the base a period later while the joints go from set-point to set-point and the momentum
@@ -373,7 +375,8 @@ fn swing(robot: &Robot<f64, 7>, joints: &[SetPoint<f64>; 7]) -> Vec3<f64> {
 /// The arm itself, driven by the commanded torques only: second order in the period, at 100 Hz it
 /// follows the set-points to 6.8e-6 rad with the attitude held and to 4.9e-5 rad with the base free,
 /// measured; and where no loop adds to it, the impulse of the torque on the base is the angular momentum
-/// that the arm gains, as the kinematics of all bodies have it: measured 7.8e-12 N·m off.
+/// that the arm gains between the postures predicted for the ends of the periods: measured 3.2e-6 N·m off
+/// that between the set-points, and what one period gives too much the next takes back.
 #[test]
 fn the_torques_carry_the_arm_along_the_set_points() {
     let (mut off, mut torque, robot) = (Worst::none(), Worst::none(), robot());
@@ -408,7 +411,7 @@ fn the_torques_carry_the_arm_along_the_set_points() {
         }
     }
     off.is_below(1e-4);
-    torque.is_below(1e-9);
+    torque.is_below(1e-4);
 }
 
 /// Fed forward by the joints, and back by the attitude sensed, with the inertia of the locked system.

@@ -6,8 +6,9 @@ use crate::random_robot::{Recipe, Scene};
 use crate::worst::Worst;
 use std::array;
 use wrasse_dynamics::{
-    BaseMode, BodyId, GeneralizedVelocity, Joint, JointDrive, Payload, PerBody, Robot, State,
-    attitude_torque, driven_dynamics, inverse_dynamics, kinematics, momentum, mount_reaction,
+    BaseMode, BodyId, GeneralizedVelocity, Joint, JointDrive, MassProperties, PerBody, Robot,
+    State, attitude_torque, driven_dynamics, inverse_dynamics, kinematics, momentum,
+    mount_reaction,
 };
 use wrasse_flight::trajectory::{JointMove, Profile, Quintic};
 use wrasse_flight::{
@@ -87,11 +88,14 @@ fn mirrored_arms_cancel_each_other_but_about_the_normal_of_the_mirror() {
             let body = BodyId::Link(j);
             links.push((
                 joint,
-                Payload { M_F_F: *one.inertia(body), I_parts_F: *one.inertia_of_parts(body) },
+                MassProperties {
+                    M_F_F: *one.inertia(body),
+                    I_parts_F: *one.inertia_of_parts(body),
+                },
             ));
         }
     }
-    let base = Payload { M_F_F: *one.inertia(BodyId::Base), ..Payload::default() };
+    let base = MassProperties { M_F_F: *one.inertia(BodyId::Base), ..MassProperties::default() };
     let robot: Robot<f64, 14> = Robot::new(base, &links).unwrap();
     // A mirror in the plane of x and z turns joints about x the other way, those about y not.
     let both = |q: [f64; 7]| -> [f64; 14] {

@@ -2,7 +2,7 @@
 
 use crate::arms::{atlas_class, cube, two_arms, upright_arm};
 use crate::random_robot::Random;
-use wrasse_dynamics::{BodyId, Frame, Payload, Robot};
+use wrasse_dynamics::{BodyId, Frame, MassProperties, Robot};
 use wrasse_flight::{ArmLaw, Assignment, Axes, Belief, JointUse, Task};
 use wrasse_spatial::{SpatialMomentum, SpatialVelocity, vec3};
 
@@ -21,7 +21,7 @@ pub(crate) struct Arm {
 
 impl Arm {
     fn new<const K: usize>((robot, tool): (Robot<f64, K>, Frame<f64>)) -> Self {
-        let matter = |body| Payload {
+        let matter = |body| MassProperties {
             M_F_F: *robot.inertia(body),
             I_parts_F: *robot.inertia_of_parts(body),
         };

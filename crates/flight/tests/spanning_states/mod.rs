@@ -2,7 +2,7 @@
 //! in its travel, at the ends of it, in singular postures and next to them.
 
 use std::f64::consts::PI;
-use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, Payload, Robot, State, kinematics};
+use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, MassProperties, Robot, State, kinematics};
 use wrasse_flight::trajectory::ToolMotion;
 use wrasse_flight::{
     ArmLaw, Asked, Assignment, Axes, BaseControlSetup, Feedforward, JointUse, Measurement,
@@ -38,8 +38,11 @@ impl Spread {
 
 /// A bus of 1500 kg with `J / 7` arms, and the tool of the first of them.
 pub(crate) fn servicer<const J: usize>() -> (Robot<f64, J>, Frame<f64>) {
-    let bus =
-        Payload::from_central(1500.0, vec3(0.02, -0.01, 0.05), Sym3::diagonal(640.0, 725.0, 725.0));
+    let bus = MassProperties::from_central(
+        1500.0,
+        vec3(0.02, -0.01, 0.05),
+        Sym3::diagonal(640.0, 725.0, 725.0),
+    );
     let mut links = vec![];
     for arm in 0..J / ARM {
         let side = if arm == 0 { 0.5 } else { -0.5 };
@@ -51,7 +54,7 @@ pub(crate) fn servicer<const J: usize>() -> (Robot<f64, J>, Frame<f64>) {
 }
 
 /// Shoulder x, y, x, elbow y, wrist x, y, x, with 0.45, 0.40 and 0.20 m between them and the tool.
-fn arm_links(first: usize, mount: Vec3<f64>) -> Vec<(Joint<f64>, Payload<f64>)> {
+fn arm_links(first: usize, mount: Vec3<f64>) -> Vec<(Joint<f64>, MassProperties<f64>)> {
     let (o, x, y) = (Vec3::zero(), vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0));
     // From the joint before (m), axis, mass (kg), centre of mass along x (m), inertias (kg·m²).
     let rows = [
@@ -68,7 +71,7 @@ fn arm_links(first: usize, mount: Vec3<f64>) -> Vec<(Joint<f64>, Payload<f64>)> 
         let parent = if i == 0 { BodyId::Base } else { BodyId::Link(first + i - 1) };
         let joint = Joint::new(parent, JointKind::Revolute, Pose::new(Mat3::identity(), p), axis);
         let I = Sym3::diagonal(along, across, across);
-        links.push((joint, Payload::from_central(mass, vec3(cm, 0.0, 0.0), I)));
+        links.push((joint, MassProperties::from_central(mass, vec3(cm, 0.0, 0.0), I)));
     }
     links
 }

@@ -11,7 +11,7 @@ use wrasse_dynamics::{
 use wrasse_flight::steering::{
     NoRelief, Relief, ReliefUse, ToolTask, momentum_rate, posture_relief,
 };
-use wrasse_spatial::{Mat3, Pose, SpatialForce, SpatialMomentum, Vec3, vec3};
+use wrasse_spatial::{At, Mat3, Pose, SpatialForce, SpatialMomentum, Vec3, vec3};
 
 /// A posture with shoulder, elbow and wrist well bent.
 const BENT: [f64; 7] = [0.3, 0.7, -0.4, 1.1, 0.2, -0.8, 0.5];
@@ -216,7 +216,7 @@ fn a_held_place_is_a_held_lever() {
     let mut rates = [(); 7].map(|()| random.within(0.2));
     for _ in 0..2000 {
         for r in 0..3 {
-            let row: [f64; 7] = std::array::from_fn(|j| J_held[j].linear.to_array()[r]);
+            let row: [f64; 7] = std::array::from_fn(|j| J_held.linear.at(j).to_array()[r]);
             let square: f64 = row.iter().map(|x| x * x).sum();
             let along: f64 = (0..7).map(|j| row[j] * rates[j]).sum();
             (0..7).for_each(|j| rates[j] -= row[j] * along / square);

@@ -1,16 +1,16 @@
 //! What the missions of base control do, found once more by another way.
 
 use crate::{case, channel, degrees, fly, metric, read, text_of};
-use wrasse_dynamics::{Payload, Robot, State, kinematics, momentum};
+use wrasse_dynamics::{MassProperties, Robot, State, kinematics, momentum};
 use wrasse_hardware::STANDARD_GRAVITY;
 use wrasse_mission::{CaseOutcome, RunOptions, run};
 use wrasse_spatial::{Sym3, Vec3, vec3};
 use wrasse_vehicle::{JOINTS, find_vehicle};
 
 /// Matter of the load that the missions with 200 kg hold.
-fn module() -> Payload<f64> {
+fn module() -> MassProperties<f64> {
     let I = Sym3::diagonal(1.0, 1.0, 1.0).scaled(200.0 / 6.0);
-    Payload::from_central(200.0, vec3(0.5, 0.0, 0.0), I)
+    MassProperties::from_central(200.0, vec3(0.5, 0.0, 0.0), I)
 }
 
 /// Angular momentum about the centre of mass that the motion of the joints alone gives at a sample of

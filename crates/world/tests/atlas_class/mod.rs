@@ -1,7 +1,7 @@
 //! The ATLAS-class servicer with a 500 kg cube in its grip, as the catalogue has it, built by hand.
 #![allow(dead_code, reason = "each test binary uses its part")]
 
-use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, Payload, Robot, State};
+use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, MassProperties, Robot, State};
 use wrasse_spatial::{Pose, Sym3, Vec3, vec3};
 
 /// Joints of the arm.
@@ -23,7 +23,8 @@ fn shifted(p: Vec3<f64>) -> Pose<f64> {
 
 /// A spherical–revolute–spherical arm of 1.05 m and 56 kg on a 1500 kg bus.
 pub(crate) fn unladen() -> Robot<f64, J> {
-    let bus = Payload::from_central(1500.0, Vec3::zero(), Sym3::diagonal(640.0, 725.0, 725.0));
+    let bus =
+        MassProperties::from_central(1500.0, Vec3::zero(), Sym3::diagonal(640.0, 725.0, 725.0));
     // (mount on the parent, mass, centre of mass along x, inertia about x, about y and z)
     let links = [
         (vec3(0.9, 0.5, 0.0), 10.0, 0.0, 0.018, 0.021),
@@ -40,7 +41,7 @@ pub(crate) fn unladen() -> Robot<f64, J> {
         let axis = if j % 2 == 0 { vec3(1.0, 0.0, 0.0) } else { vec3(0.0, 1.0, 0.0) };
         let joint = Joint::new(parent, JointKind::Revolute, shifted(p), axis);
         let I = Sym3::diagonal(ix, it, it);
-        chain.push((joint, Payload::from_central(m, vec3(x, 0.0, 0.0), I)));
+        chain.push((joint, MassProperties::from_central(m, vec3(x, 0.0, 0.0), I)));
     }
     Robot::new(bus, &chain).expect("seven joints fit")
 }
@@ -51,8 +52,8 @@ pub(crate) fn tool() -> Frame<f64> {
 }
 
 /// A cube of 1 m and the given mass (kg), gripped at a face.
-pub(crate) fn cube(mass: f64) -> Payload<f64> {
-    Payload::from_central(
+pub(crate) fn cube(mass: f64) -> MassProperties<f64> {
+    MassProperties::from_central(
         mass,
         vec3(0.5, 0.0, 0.0),
         Sym3::diagonal(1.0, 1.0, 1.0).scaled(mass / 6.0),

@@ -2,7 +2,7 @@
 //! is zero by accident, and the base feels the arms.
 #![allow(dead_code, reason = "each test binary uses its part")]
 
-use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, Payload, Robot, State};
+use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, MassProperties, Robot, State};
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Sym3, Vec3, vec3};
 use wrasse_world::{BaseAttitude, Equipment, Stepper, World, WorldSetup};
 
@@ -14,10 +14,10 @@ pub(crate) fn pose(turn: Vec3<f64>, shift: Vec3<f64>) -> Pose<f64> {
 }
 
 /// A rigid part with its centre of mass off its origin and its principal axes oblique.
-fn part(mass: f64, p_cm: Vec3<f64>, size: f64) -> Payload<f64> {
+fn part(mass: f64, p_cm: Vec3<f64>, size: f64) -> MassProperties<f64> {
     let I = Sym3::diagonal(0.4, 0.7, 0.9).scaled(mass * size * size);
     let turned = pose(vec3(0.3, -0.5, 0.2), p_cm);
-    Payload::from_central(mass, Vec3::zero(), I).seen_from(&turned)
+    MassProperties::from_central(mass, Vec3::zero(), I).seen_from(&turned)
 }
 
 /// Base of 40 kg; arm one turns and slides, arm two turns twice.
@@ -82,7 +82,7 @@ pub(crate) fn grip() -> Frame<f64> {
 }
 
 /// Something of 12 kg to hold, off its own frame.
-pub(crate) fn load() -> Payload<f64> {
+pub(crate) fn load() -> MassProperties<f64> {
     part(12.0, vec3(0.2, 0.1, -0.15), 0.4)
 }
 

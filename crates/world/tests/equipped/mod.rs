@@ -2,7 +2,7 @@
 //! that push in all directions beside the centre of mass.
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
-use wrasse_dynamics::{Payload, Robot, State};
+use wrasse_dynamics::{MassProperties, Robot, State};
 use wrasse_hardware::{
     ActuatorCommand, Actuators, ControlMomentGyro, GYROS, List, ReactionWheel, THRUSTERS, Tank,
     Thruster, WHEELS,
@@ -105,7 +105,8 @@ pub(crate) fn busy(period: u32) -> ActuatorCommand<f64> {
 
 /// A base alone: mass (kg) and central inertia (kg·m²), its centre of mass in its origin.
 pub(crate) fn block(mass: f64, inertia: Sym3<f64>) -> Robot<f64, 1> {
-    Robot::new(Payload::from_central(mass, Vec3::zero(), inertia), &[]).expect("a base is a robot")
+    Robot::new(MassProperties::from_central(mass, Vec3::zero(), inertia), &[])
+        .expect("a base is a robot")
 }
 
 /// A block that turns at `w` (rad/s), with equipment, in steps of `step` (s).
