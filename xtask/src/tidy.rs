@@ -20,7 +20,7 @@ const RULES: [Rule; 15] = [
     ("every external dependency has its reason in the map", architecture::dependency_reasons),
     ("the arrows between crates are those of the map", dependencies::arrows),
     ("what flies and what is true never meet", dependencies::flight_apart_from_world),
-    ("the core rests on itself and libm, without std", dependencies::core_alone),
+    ("the core rests on itself, libm and cpufeatures, without std", dependencies::core_alone),
     ("files are short and named for what they hold", source_text::files),
     ("no clocks, global randomness or marks of unfinished work", source_text::words),
     ("elementary functions of the core come from one source", source_text::core_floats),

@@ -3,7 +3,8 @@
 
 use crate::{BaseMode, BaseRows, Configuration, Robot};
 use wrasse_spatial::{
-    At, Real, Rows, SpatialForce, SpatialInertia, SpatialMomentum, SpatialVelocity, Sym3, Vec3,
+    At, InverseInertia, Real, Rows, SpatialForce, SpatialInertia, SpatialMomentum, SpatialVelocity,
+    Sym3, Vec3,
 };
 
 /// `V_NB_B = Σ per_rate q̇ + drift`, or the time derivatives of both.
@@ -13,13 +14,17 @@ pub struct BaseResponse<T, const J: usize> {
     pub per_rate: SpatialVelocity<[T; J]>,
     /// Twist that the momentum alone causes (rad/s, m/s).
     pub drift: SpatialVelocity<T>,
+    /// `M_bb⁻¹`.
+    pub mobility: InverseInertia<T>,
 }
 
 impl<T: Real, const J: usize> BaseResponse<T, J> {
     /// A base that is bolted down.
     #[inline(always)]
     fn none() -> Self {
-        Self { per_rate: Rows::zero_rows(), drift: SpatialVelocity::zero() }
+        let mobility =
+            InverseInertia { per_mass: T::zero(), p_cm: Vec3::zero(), per_central: Sym3::zero() };
+        Self { per_rate: Rows::zero_rows(), drift: SpatialVelocity::zero(), mobility }
     }
     /// The twist that joint rates cause, without the drift.
     #[inline(always)]
@@ -60,6 +65,7 @@ pub fn base_response<T: Real, const J: usize>(
                 response.per_rate.put(j, -mobility.velocity_of(&M.M_bj.at(j)));
             }
             response.drift = mobility.velocity_of(&h_Scm_B.about(-mobility.p_cm));
+            response.mobility = mobility;
         }
     }
     response
@@ -84,7 +90,7 @@ pub fn base_response_rate<T: Real, const J: usize>(
         BaseMode::AttitudeHeld => held_rate(robot, &configuration.base, (V, qdot), hdot.force),
         BaseMode::Free => {
             let (pushes, Mdot_bb) = base_rows_rate(robot, configuration, V, qdot);
-            let mobility = configuration.base.M_bb.inverse();
+            let mobility = &response.mobility;
             let mut rate = BaseResponse::none();
             for j in robot.joints() {
                 let push = pushes.at(j) + Mdot_bb * response.per_rate.at(j);

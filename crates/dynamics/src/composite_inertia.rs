@@ -53,7 +53,7 @@ kernel! {
 
 /// The same, with links in a layout.
 #[inline(always)]
-pub fn compose_links<L: Layout, const J: usize>(
+pub(crate) fn compose_links<L: Layout, const J: usize>(
     robot: &Robot<L::One, J>,
     posture: &Posture<L::One, J>,
     composite: &mut CompositeInertia<L::One, J>,

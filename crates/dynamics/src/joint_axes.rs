@@ -17,9 +17,36 @@ pub(crate) struct JointAxes<T> {
     /// γ, if it is not zero.
     pub(crate) gamma: Option<Turn<T>>,
     /// α.
-    pub(crate) alpha: Turn<T>,
+    pub(crate) alpha: Alpha<T>,
     /// `R_LB`.
     pub(crate) R_LB: Mat3<T>,
+}
+
+/// The constant turn from a joint's axis to the next: of most arms half or quarter turns, which only
+/// change signs and places.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Alpha<T> {
+    /// Cosine of no turn or a half one.
+    Along(T),
+    /// Sine of a quarter turn.
+    Across(T),
+    /// Any other.
+    Oblique(Turn<T>),
+}
+
+impl<T: Scalar> Alpha<T> {
+    /// Of a turn: what is within rounding of a quarter is one.
+    fn new(turn: Turn<T>) -> Self {
+        let rounding = T::epsilon() * T::from_f64(8.0);
+        let sign = |x: T| if x < T::zero() { -T::one() } else { T::one() };
+        if turn.sin.abs() <= rounding {
+            Self::Along(sign(turn.cos))
+        } else if turn.cos.abs() <= rounding {
+            Self::Across(sign(turn.sin))
+        } else {
+            Self::Oblique(turn)
+        }
+    }
 }
 
 impl<T: Scalar> JointAxes<T> {
@@ -29,7 +56,7 @@ impl<T: Scalar> JointAxes<T> {
         let R_LB = link_axes(joint.axis_B, next_B);
         let R = *R_PBp * joint.X_PB_zero.rotation * R_LB.transpose();
         let (gamma, alpha, theta_zero) = three_turns(&R);
-        (Self { gamma, alpha, R_LB }, theta_zero)
+        (Self { gamma, alpha: Alpha::new(alpha), R_LB }, theta_zero)
     }
 }
 
@@ -37,9 +64,22 @@ impl<T: Real> JointAxes<T> {
     /// `R_AL` from `R_AP` at θ: a row of `R_AL` is the row of `R_AP` in the link's axes.
     #[inline(always)]
     pub(crate) fn R_AL(&self, R_AP: &Mat3<T>, theta: &Turn<T>) -> Mat3<T> {
-        let [x, y, z] = R_AP.rows;
-        let in_link = |row: Vec3<T>| self.before_theta(row).about_z(&theta.back());
-        Mat3::from_rows(in_link(x), in_link(y), in_link(z))
+        let [mut x, mut y, mut z] = R_AP.rows;
+        if let Some(gamma) = &self.gamma {
+            let back = gamma.back();
+            (x, y, z) = (x.about_z(&back), y.about_z(&back), z.about_z(&back));
+        }
+        // The kind of α is asked once, not for each row.
+        match &self.alpha {
+            Alpha::Along(c) => (x, y, z) = (x.along(*c), y.along(*c), z.along(*c)),
+            Alpha::Across(s) => (x, y, z) = (x.across(*s), y.across(*s), z.across(*s)),
+            Alpha::Oblique(turn) => {
+                let back = turn.back();
+                (x, y, z) = (x.about_x(&back), y.about_x(&back), z.about_x(&back));
+            }
+        }
+        let back = theta.back();
+        Mat3::from_rows(x.about_z(&back), y.about_z(&back), z.about_z(&back))
     }
     /// A vector in P axes, in the axes that θ turns.
     #[inline(always)]
@@ -48,7 +88,30 @@ impl<T: Real> JointAxes<T> {
             Some(gamma) => v_P.about_z(&gamma.back()),
             None => v_P,
         };
-        forked.about_x(&self.alpha.back())
+        match &self.alpha {
+            Alpha::Along(cos) => forked.along(*cos),
+            Alpha::Across(sin) => forked.across(*sin),
+            Alpha::Oblique(turn) => forked.about_x(&turn.back()),
+        }
+    }
+}
+
+/// Turns about x that only change signs and places.
+trait Quarters<T> {
+    /// Turned back by no turn or a half one.
+    fn along(self, cos: T) -> Self;
+    /// Turned back by a quarter.
+    fn across(self, sin: T) -> Self;
+}
+
+impl<T: Real> Quarters<T> for Vec3<T> {
+    #[inline(always)]
+    fn along(self, cos: T) -> Self {
+        vec3(self.x, self.y * cos, self.z * cos)
+    }
+    #[inline(always)]
+    fn across(self, sin: T) -> Self {
+        vec3(self.x, self.z * sin, -(self.y * sin))
     }
 }
 
@@ -57,7 +120,11 @@ impl JointAxes<f64> {
     pub(crate) fn cast<T: Real>(&self) -> JointAxes<T> {
         JointAxes {
             gamma: self.gamma.map(|gamma| Turn::from_f64(&gamma)),
-            alpha: Turn::from_f64(&self.alpha),
+            alpha: match self.alpha {
+                Alpha::Along(cos) => Alpha::Along(T::from_f64(cos)),
+                Alpha::Across(sin) => Alpha::Across(T::from_f64(sin)),
+                Alpha::Oblique(turn) => Alpha::Oblique(Turn::from_f64(&turn)),
+            },
             R_LB: Mat3::from_f64(self.R_LB),
         }
     }

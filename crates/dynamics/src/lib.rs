@@ -39,8 +39,8 @@ pub use attitude_held_jacobian::attitude_held_jacobian;
 pub use barycentric_vectors::{barycentric_vectors, virtual_manipulator};
 pub use base_response::{BaseResponse, base_response, base_response_rate};
 pub use cholesky::Cholesky;
-pub use composite_inertia::{BaseRows, CompositeInertia, compose, compose_links};
-pub use configuration::{Configuration, configure};
+pub use composite_inertia::{BaseRows, CompositeInertia, compose};
+pub use configuration::{Configuration, configure, configure_near};
 pub use energy::kinetic_energy;
 pub use factorization::Factorization;
 pub use forward_dynamics::{
@@ -62,7 +62,7 @@ pub use momentum::{
     Momentum, MomentumMatrix, base_twist, momentum, momentum_columns, momentum_matrix,
 };
 pub use outside::Outside;
-pub use posture::{Posture, place, place_links};
+pub use posture::{Posture, place};
 pub use printed_reaction::{PrintedReaction, printed_reaction};
 pub use reaction::{attitude_torque, mount_reaction};
 pub use reaction_null_space::{angular_momentum_per_rate, reaction_null_space};

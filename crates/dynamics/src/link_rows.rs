@@ -97,8 +97,8 @@ impl<T: Scalar, const J: usize> LinkRows<T, J> {
         let mut first = 0;
         for end in 1..=count {
             // An arm ends where all that comes leaves the base behind it.
-            if (end..count).all(|k| root[k] >= end) {
-                let forked = (first + 1..end).any(|k| !self.follows[k]);
+            if (end..count).all(|k| root[within::<J>(k)] >= end) {
+                let forked = (first + 1..end).any(|k| !self.follows[within::<J>(k)]);
                 for j in first..end.min(J) {
                     (self.arm[j], self.forked[j]) = (Span { first, end }, forked);
                 }

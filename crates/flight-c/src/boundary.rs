@@ -15,7 +15,7 @@ use wrasse_dynamics::Robot;
 use wrasse_flight::{PeriodMemory, Setup, checked_period};
 
 /// Words of eight bytes of a [`WrasseFlight`].
-pub const WRASSE_FLIGHT_WORDS: usize = 3072;
+pub const WRASSE_FLIGHT_WORDS: usize = 4096;
 
 /// Memory of the flight code, given by the caller. What is in it is nobody's business; copying it
 /// copies its state.

@@ -89,5 +89,5 @@ fn the_example_in_c_is_told_what_rust_is_told() {
 
 #[test]
 fn the_memory_that_c_gives_is_as_large_as_the_header_says() {
-    assert_eq!((size_of::<WrasseFlight>(), WRASSE_JOINTS), (24 * 1024, 14));
+    assert_eq!((size_of::<WrasseFlight>(), WRASSE_JOINTS), (32 * 1024, 14));
 }

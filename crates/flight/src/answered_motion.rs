@@ -17,7 +17,8 @@ pub fn answered_motion<T: Real, const J: usize>(
     qdot: &[T; J],
     qddot: &[T; J],
 ) -> ResolvedMotion<T, J> {
-    answered_motion_in(robot, law, &Configuration::at(robot, &belief.q), belief, qdot, qddot)
+    let (at, mut forces) = (Configuration::at(robot, &belief.q), InverseDynamics::new());
+    answered_motion_in(robot, law, (&at, &mut forces), belief, qdot, qddot)
 }
 
 /// The same in a configuration that is at hand.
@@ -25,18 +26,18 @@ pub fn answered_motion<T: Real, const J: usize>(
 pub(crate) fn answered_motion_in<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     law: ArmLaw,
-    configuration: &Configuration<T, J>,
+    (configuration, forces): (&Configuration<T, J>, &mut InverseDynamics<T, J>),
     belief: &Belief<T, J>,
     qdot: &[T; J],
     qddot: &[T; J],
 ) -> ResolvedMotion<T, J> {
     let M = &configuration.base;
     let V_NB_B = answered_twist(law, &M.M_bb, &M.momentum_of_rates(qdot), &belief.h_Scm_B());
-    let (still, mut motion) = (SpatialVelocity::zero(), InverseDynamics::new());
+    let still = SpatialVelocity::zero();
     let nu = Generalized { base: V_NB_B, joints: *qdot };
     let nudot = Generalized { base: still, joints: *qddot };
-    drive_configuration(robot, configuration, &nu, &nudot, Outside::nothing(), &mut motion);
-    let A_NB_B = recoil(law.base(), M, &motion.force.base);
+    drive_configuration(robot, configuration, &nu, &nudot, Outside::nothing(), forces);
+    let A_NB_B = recoil(law.base(), M, &forces.force.base);
     ResolvedMotion { rate: Resolved { qdot: *qdot, V_NB_B }, qddot: *qddot, A_NB_B }
 }
 

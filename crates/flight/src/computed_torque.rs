@@ -26,7 +26,8 @@ pub fn computed_torque<T: Real, const J: usize>(
     let back = joint_feedback(robot, tuning, sensed, now);
     let qddot = core::array::from_fn(|j| acceleration[j] + back[j]);
     let configuration = Configuration::at(robot, &sensed.q);
-    law_effort(robot, law, &configuration, (&sensed.V_NB_B, &sensed.v), &qddot)
+    let at = (&configuration, &mut InverseDynamics::new());
+    law_effort(robot, law, at, (&sensed.V_NB_B, &sensed.v), &qddot)
 }
 
 /// Acceleration of each joint that its loop asks for (rad/s², m/s²): `2ζω ė + ω² e`.
@@ -55,19 +56,19 @@ pub(crate) fn joint_feedback<T: Real, const J: usize>(
 pub(crate) fn law_effort<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     law: ArmLaw,
-    configuration: &Configuration<T, J>,
+    (configuration, forces): (&Configuration<T, J>, &mut InverseDynamics<T, J>),
     (V_NB_B, qdot): (&SpatialVelocity<T>, &[T; J]),
     qddot: &[T; J],
 ) -> [T; J] {
     // On a base that does not turn, where it goes has no part in the forces, only that it gives way.
     let base = if law == ArmLaw::FreeFloating { *V_NB_B } else { SpatialVelocity::zero() };
-    let (still, mut motion) = (SpatialVelocity::zero(), InverseDynamics::new());
+    let still = SpatialVelocity::zero();
     let nu = Generalized { base, joints: *qdot };
     let nudot = Generalized { base: still, joints: *qddot };
-    drive_configuration(robot, configuration, &nu, &nudot, Outside::nothing(), &mut motion);
+    drive_configuration(robot, configuration, &nu, &nudot, Outside::nothing(), forces);
     let M = &configuration.base;
-    let A_NB_B = recoil(law.base(), M, &motion.force.base);
-    let mut effort = motion.force.joints;
+    let A_NB_B = recoil(law.base(), M, &forces.force.base);
+    let mut effort = forces.force.joints;
     for j in robot.joints() {
         effort[j] += match law {
             ArmLaw::Terrestrial => T::zero(),

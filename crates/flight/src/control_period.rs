@@ -12,7 +12,7 @@ use crate::resolved_motion::{
     Assignment, Belief, JointUse, Resolved, ResolvedMotion, WantedMotion, resolved_motion_in,
 };
 use crate::trajectory::{JointSetPoint, ToolMotion};
-use wrasse_dynamics::{Configuration, Robot, State, configure};
+use wrasse_dynamics::{Configuration, InverseDynamics, Robot, State, configure, configure_near};
 use wrasse_hardware::SetPoint;
 use wrasse_spatial::{
     Mat3, Pose, Quat, Real, SpatialForce, SpatialInertia, SpatialMomentum, SpatialVelocity, Vec3,
@@ -71,6 +71,10 @@ pub struct PeriodMemory<T, const J: usize> {
     pub(crate) coasting: bool,
     /// What the joint positions give in the middle of the coming period, as the sensed motion goes on.
     pub(crate) middle: Configuration<T, J>,
+    /// What they give at its end.
+    end: Configuration<T, J>,
+    /// A place for the forces of a motion.
+    forces: InverseDynamics<T, J>,
 }
 
 impl<T: Real, const J: usize> Default for PeriodMemory<T, J> {
@@ -121,6 +125,8 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             started: false,
             coasting: false,
             middle: Configuration::new(),
+            end: Configuration::new(),
+            forces: InverseDynamics::new(),
         }
     }
 
@@ -202,7 +208,7 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         let period = setup.tuning.period;
         let (from, began) = (self.belief, self.motion);
         let quat_NB = Quat::from_matrix(&from.X_NB.rotation);
-        self.predict(robot, &quat_NB, period);
+        self.motion.go_on(robot, &quat_NB, period, &mut self.belief);
         let (end, rate_share) = self.follow(robot, setup, asked, (&from, &began));
         self.correct_base(&quat_NB, (&from, &began), period);
         let (law, h_B) = (setup.assignment.law, self.belief.h_Scm_B());
@@ -223,7 +229,8 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         if self.coasting {
             return Told::nothing(self.now, end.M_B);
         }
-        let (inertia, at) = ((end.M_B, reaction_B), (sensed, &self.middle));
+        let inertia = (end.M_B, reaction_B);
+        let at = (sensed, &self.middle, &mut self.forces);
         let told = told(robot, setup, at, (&now, &self.now), inertia, tool_wrench_E);
         Told { rate_share, ..told }
     }
@@ -236,22 +243,28 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
 
     /// The vehicle as the law believes it to be a period (s) on, from its motion now alone.
     pub(crate) fn predicted(&self, robot: &Robot<T, J>, period: T) -> Belief<T, J> {
-        let mut ahead = *self;
-        ahead.predict(robot, &Quat::from_matrix(&self.belief.X_NB.rotation), period);
-        ahead.belief
+        let quat_NB = Quat::from_matrix(&self.belief.X_NB.rotation);
+        let mut ahead = self.belief;
+        self.motion.go_on(robot, &quat_NB, period, &mut ahead);
+        ahead
     }
+}
 
+impl<T: Real, const J: usize> ResolvedMotion<T, J> {
+    /// Move a belief on by a period (s), with the base turned by `quat_NB`.
     #[inline(always)]
-    fn predict(&mut self, robot: &Robot<T, J>, quat_NB: &Quat<T>, period: T) {
+    fn go_on(&self, robot: &Robot<T, J>, quat_NB: &Quat<T>, period: T, belief: &mut Belief<T, J>) {
         let half = T::from_f64(0.5) * period;
         for j in robot.joints() {
-            let mean = self.motion.rate.qdot[j] + self.motion.qddot[j] * half;
-            self.belief.q[j] += mean * period;
+            let mean = self.rate.qdot[j] + self.qddot[j] * half;
+            belief.q[j] += mean * period;
         }
-        let mean = self.motion.rate.V_NB_B + self.motion.A_NB_B * half;
-        self.belief.X_NB = moved_on(&self.belief.X_NB, quat_NB, &mean, period);
+        let mean = self.rate.V_NB_B + self.A_NB_B * half;
+        belief.X_NB = moved_on(&belief.X_NB, quat_NB, &mean, period);
     }
+}
 
+impl<T: Real, const J: usize> PeriodMemory<T, J> {
     /// The joints' motion at the end of the period: the posture it ends in, and the share of the rates
     /// that the rate limits leave (–).
     #[inline(always)]
@@ -297,8 +310,8 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         setup: &Setup<T, J>,
         joints: &JointUse<T, J>,
     ) -> (PeriodEnd<T>, T) {
-        let configuration = Configuration::at(robot, &self.belief.q);
-        let X_BE = configuration.posture.pose(robot, &setup.assignment.tool);
+        configure_near(robot, &self.belief.q, &self.middle, &mut self.end);
+        let X_BE = self.end.posture.pose(robot, &setup.assignment.tool);
         let X = match self.axes {
             Axes::Inertial => self.belief.X_NB * X_BE,
             Axes::Base => X_BE,
@@ -316,9 +329,9 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             Vdot_NE: self.reference.Vdot_NE_N - (error * back + surprise) * back,
         };
         let to = Assignment { axes: self.axes, ..setup.assignment };
-        let found = resolved_motion_in(robot, &to, &configuration, &self.belief, &wanted, joints);
+        let found = resolved_motion_in(robot, &to, &self.end, &self.belief, &wanted, joints);
         self.motion = found.0;
-        (PeriodEnd::new(&configuration, &self.motion.rate.qdot), found.1)
+        (PeriodEnd::new(&self.end, &self.motion.rate.qdot), found.1)
     }
 
     /// Twist of the tool, at `X`, that the law did not expect.
@@ -378,10 +391,11 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         qddot: &[T; J],
     ) -> (PeriodEnd<T>, Pose<T>) {
         let law = setup.assignment.law;
-        let configuration = Configuration::at(robot, &self.belief.q);
-        self.motion = answered_motion_in(robot, law, &configuration, &self.belief, qdot, qddot);
-        let X_BE = configuration.posture.pose(robot, &setup.assignment.tool);
-        (PeriodEnd::new(&configuration, qdot), X_BE)
+        configure(robot, &self.belief.q, &mut self.end);
+        let (at, belief) = ((&self.end, &mut self.forces), &self.belief);
+        self.motion = answered_motion_in(robot, law, at, belief, qdot, qddot);
+        let X_BE = self.end.posture.pose(robot, &setup.assignment.tool);
+        (PeriodEnd::new(&self.end, qdot), X_BE)
     }
 
     /// The same, and the tool's reference stays where that brings it.

@@ -8,7 +8,7 @@ use crate::coupling_inertia::CouplingInertia;
 use crate::feedforward::feedforward_torque;
 use crate::law::{ArmLaw, Feedforward};
 use crate::tool_wrench::against_tool_wrench;
-use wrasse_dynamics::{Configuration, Robot, State};
+use wrasse_dynamics::{Configuration, InverseDynamics, Robot, State};
 use wrasse_hardware::{SetPoint, SetPointMotion};
 use wrasse_spatial::{Quat, Real, SpatialForce, SpatialInertia, Vec3};
 
@@ -109,7 +109,7 @@ impl<T: Real, const J: usize> Told<T, J> {
 pub(crate) fn told<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     setup: &Setup<T, J>,
-    (sensed, at): (&State<T, J>, &Configuration<T, J>),
+    (sensed, at, forces): (&State<T, J>, &Configuration<T, J>, &mut InverseDynamics<T, J>),
     (now, next): (&[SetPoint<T>; J], &[SetPoint<T>; J]),
     (M_B, reaction_B): (SpatialInertia<T>, Vec3<T>),
     tool_wrench_E: Option<&SpatialForce<T>>,
@@ -119,7 +119,7 @@ pub(crate) fn told<T: Real, const J: usize>(
         Middle::new(robot, tuning.period, sensed, now, next);
     let back = joint_feedback(robot, tuning, &ahead, &middle);
     let qddot = core::array::from_fn(|j| acceleration[j] + back[j]);
-    let mut effort = law_effort(robot, law, at, (&ahead.V_NB_B, &ahead.v), &qddot);
+    let mut effort = law_effort(robot, law, (at, forces), (&ahead.V_NB_B, &ahead.v), &qddot);
     let coupling = CouplingInertia::of(&at.base);
     let feedback_B = coupling.reaction(&driven_feedback(robot, setup, back));
     // What holds the base against the joints as they are asked to move.

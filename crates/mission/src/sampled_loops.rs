@@ -339,7 +339,12 @@ mod tests {
             let found = driven_dynamics(&k, &tau.map(JointDrive::Effort), mode, &outside);
             (0..n).for_each(|i| answers[(i, j)] = found.nudot.joints[i]);
         }
-        answers.complex_eigenvalues().iter().map(|e| e.norm()).fold(0.0, f64::max)
+        nalgebra::Schur::try_new(answers, 1e-13, 10_000)
+            .expect("it converges")
+            .complex_eigenvalues()
+            .iter()
+            .map(|e| e.norm())
+            .fold(0.0, f64::max)
     }
 
     /// Second route: the law's torques through forward dynamics. Measured: 3e-13 of it.

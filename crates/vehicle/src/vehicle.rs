@@ -7,7 +7,7 @@ use wrasse_hardware::{AttitudeActuator, JointLimits, Sensors};
 use wrasse_spatial::{Pose, Vec3};
 
 /// Most moving joints a vehicle can have.
-pub const JOINTS: usize = 20;
+pub const JOINTS: usize = 40;
 
 /// The robot of a vehicle file.
 pub type VehicleRobot = Robot<f64, JOINTS>;
