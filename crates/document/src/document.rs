@@ -1,5 +1,6 @@
 //! A parsed file that remembers where each value stands.
 
+use crate::deserialize::Root;
 use crate::json;
 use crate::positioned::{self, Entry, Positioned, Table, Value};
 use crate::schema_walk::Walk;
@@ -112,11 +113,8 @@ impl Document {
     }
     /// The document as a `T` whose shape it has.
     pub(crate) fn deserialized<T: DeserializeOwned>(&self) -> Result<T, Vec<Complaint>> {
-        let table = positioned::without_positions(&self.root);
-        T::deserialize(table).map_err(|error| {
-            let one_line = error.to_string().trim().replace('\n', ", ");
-            vec![Complaint::error(&self.source, one_line)]
-        })
+        T::deserialize(Root(&self.root))
+            .map_err(|misfit| vec![Complaint::error(&self.source, misfit.to_string())])
     }
     pub(crate) fn root(&self) -> &Table {
         &self.root

@@ -24,6 +24,7 @@
 //! ```
 
 mod complaint;
+mod deserialize;
 mod document;
 mod excerpt;
 mod in_part;

@@ -140,20 +140,3 @@ pub(crate) fn lay_over(base: &mut Table, over: &Table) {
         }
     }
 }
-
-/// The same tree without positions, for serde.
-pub(crate) fn without_positions(table: &Table) -> toml::Table {
-    table.iter().map(|(key, entry)| (key.clone(), bare(&entry.item.value))).collect()
-}
-
-fn bare(value: &Value) -> toml::Value {
-    match value {
-        Value::String(text) => toml::Value::String(text.clone()),
-        Value::Integer(number) => toml::Value::Integer(*number),
-        Value::Float(number) => toml::Value::Float(*number),
-        Value::Boolean(flag) => toml::Value::Boolean(*flag),
-        Value::Datetime(date) => toml::Value::Datetime(*date),
-        Value::Array(items) => toml::Value::Array(items.iter().map(|i| bare(&i.value)).collect()),
-        Value::Table(table) => toml::Value::Table(without_positions(table)),
-    }
-}

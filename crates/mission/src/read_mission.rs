@@ -46,7 +46,11 @@ pub fn read_mission(
     path: impl Into<PathBuf>,
     text: impl Into<String>,
 ) -> Result<Mission, Vec<Complaint>> {
-    let document = Document::parse(path, text)?;
+    mission_of(&Document::parse(path, text)?)
+}
+
+/// The same of a document: apart from what is generic, so that the callers do not compile it again.
+fn mission_of(document: &Document) -> Result<Mission, Vec<Complaint>> {
     let part = document.read_in_part::<MissionFile>();
     let Some(file) = part.value else { return Err(part.complaints) };
     let mut complaints = vec![];

@@ -53,23 +53,27 @@ pub fn read_study_with(
     text: &str,
     catalogue: &[Catalogue],
 ) -> Result<Study, Vec<Complaint>> {
-    let path = path.into();
-    let document = Document::parse(path.clone(), text)?;
+    read_at(&path.into(), text, catalogue)
+}
+
+/// The same, apart from what is generic, so that the callers do not compile it again.
+fn read_at(path: &Path, text: &str, catalogue: &[Catalogue]) -> Result<Study, Vec<Complaint>> {
+    let document = Document::parse(path, text)?;
     let wrong = complaints(&document);
-    let mission = match read_mission(path.clone(), text) {
+    let mission = match read_mission(path, text) {
         Ok(mission) if wrong.is_empty() => mission,
         Ok(_) => return Err(wrong),
         Err(found) => return Err([found, wrong].concat()),
     };
     if mission.study.is_none() {
-        return laid_over(&path, text, &mission, catalogue);
+        return laid_over(path, text, &mission, catalogue);
     }
     if !catalogue.is_empty() {
         let message = "the study brings its own sets".to_owned();
         let help = "leave out --catalogue, or the table [study] and the axis of its sets";
         return Err(vec![document.error(at!["study"], message, "here").with_help(help)]);
     }
-    beside_own_units(&path, text, mission, &document)
+    beside_own_units(path, text, mission, &document)
 }
 
 /// A mission with sets that it does not bring itself. Those that its vehicle cannot be flown with are
