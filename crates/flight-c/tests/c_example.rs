@@ -5,7 +5,7 @@
 mod c_programs;
 
 use c_programs::run_in_c;
-use wrasse_dynamics::{Frame, Robot, State};
+use wrasse_dynamics::{Frame, State};
 use wrasse_flight::trajectory::ToolMotion;
 use wrasse_flight::{
     ArmLaw, Asked, Assignment, Axes, BaseControlSetup, Feedforward, JointUse, Measurement,
@@ -14,16 +14,16 @@ use wrasse_flight::{
 use wrasse_flight_c::{WRASSE_JOINTS, WrasseFlight};
 use wrasse_hardware::JointLimits;
 use wrasse_spatial::{Mat3, Pose, Quat, SpatialVelocity, vec3};
-use wrasse_vehicle::{Vehicle, catalogue};
+use wrasse_vehicle::{JOINTS, Vehicle, catalogue};
 
 fn atlas_class() -> Vehicle {
     catalogue().iter().find(|entry| entry.name == "atlas-class").unwrap().read().unwrap()
 }
 
 /// The same two periods in Rust, with the robot of the catalogue.
-fn in_rust() -> Told<f64, 20> {
+fn in_rust() -> Told<f64, JOINTS> {
     let vehicle = atlas_class();
-    let robot: &Robot<f64, 20> = &vehicle.robot;
+    let robot: &wrasse_vehicle::VehicleRobot = &vehicle.robot;
     let tool: Frame<f64> = vehicle.frame(&vehicle.tools[0]).unwrap();
     let setup = Setup {
         assignment: Assignment {
@@ -33,7 +33,12 @@ fn in_rust() -> Told<f64, 20> {
             law: ArmLaw::AttitudeHeld,
             damped_below: 0.02,
         },
-        joints: JointUse { gain: 0.0, gain_rate: 0.0, posture: [0.0; 20], rate_limit: [0.2; 20] },
+        joints: JointUse {
+            gain: 0.0,
+            gain_rate: 0.0,
+            posture: [0.0; JOINTS],
+            rate_limit: [0.2; JOINTS],
+        },
         base: BaseControlSetup::ideal(Feedforward::Exact, Quat::identity()),
         navigation: NavigationSetup::perfect(),
         measurement: Measurement::Base,
@@ -45,8 +50,8 @@ fn in_rust() -> Told<f64, 20> {
             attitude_bandwidth: 0.3,
             attitude_damping: 1.0,
         },
-        limits: [JointLimits { effort: Some(500.0), ..JointLimits::default() }; 20],
-        position_driven: [false; 20],
+        limits: [JointLimits { effort: Some(500.0), ..JointLimits::default() }; JOINTS],
+        position_driven: [false; JOINTS],
     };
     let mut state = State::default();
     state.V_NB_B.angular = vec3(0.001, -0.002, 0.0005);

@@ -233,7 +233,7 @@ pub(crate) fn setup(
     }
     if let Some(wanted) = &c.redundancy {
         let path = at!["control", "redundancy", "posture"];
-        joints.posture = posture(r, path, &wanted.posture).unwrap_or_default();
+        joints.posture = posture(r, path, &wanted.posture).unwrap_or([0.0; JOINTS]);
         joints.gain = r.positive(at!["control", "redundancy", "gain_per_s"], wanted.gain_per_s);
     }
     let mut limits = [JointLimits::default(); JOINTS];
