@@ -65,7 +65,7 @@
 #define WRASSE_AXES_BASE 1
 
 // Words of eight bytes of a [`WrasseFlight`].
-#define WRASSE_FLIGHT_WORDS 3072
+#define WRASSE_FLIGHT_WORDS 4096
 
 // How a call ended.
 enum WrasseStatus

@@ -15,7 +15,7 @@ use timings::Timing;
 
 /// What was measured, by vehicle and quantity.
 pub(crate) struct Measured {
-    /// `single`, `single_avx2`, `lanes`; the peers by their names.
+    /// `base`, `avx2`, `avx512`, `batch_of_8`; the peers by their names.
     pub(super) timings: BTreeMap<(String, String), BTreeMap<String, Timing>>,
     /// Operations that each kernel takes.
     pub(super) operations: BTreeMap<(String, String), f64>,
@@ -27,12 +27,14 @@ pub(crate) struct Measured {
     pub(super) without_peers: Option<String>,
 }
 
-/// Measure and write the page; with `--page`, write it from what was measured last.
+/// Measure and write the page; with `--page`, write it from what was measured last; with `--quick`,
+/// measure what is asked for most, shortly, and print how many times faster than the peers it is.
 pub(crate) fn bench(arguments: &[String]) -> Result<(), String> {
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         [] => cargo(&["bench", "-p", "wrasse-bench", "--bench", "kernels"], None)?,
         ["--page"] => {}
-        _ => return Err("usage: cargo xtask bench [--page]".to_owned()),
+        ["--quick"] => return quick(),
+        _ => return Err("usage: cargo xtask bench [--page | --quick]".to_owned()),
     }
     let target = target();
     let mut timings = timings::of_criterion(&target.join("criterion"))?;
@@ -56,6 +58,29 @@ pub(crate) fn bench(arguments: &[String]) -> Result<(), String> {
     write("performance.md", page::page(&measured))?;
     println!("{}", page::table(&measured));
     println!("book/src/performance.md was written");
+    Ok(())
+}
+
+/// Ratios to the peers of a short run, one line each.
+fn quick() -> Result<(), String> {
+    let target = target();
+    let results = target.join("criterion");
+    if results.exists() {
+        fs::remove_dir_all(&results).map_err(|why| format!("{}: {why}", results.display()))?;
+    }
+    let quantities = format!("({})\\.(avx2|base)$", page::QUICK.join("|"));
+    let bench = ["bench", "-p", "wrasse-bench", "--bench", "kernels", "--", &quantities];
+    let short = ["--warm-up-time", "0.1", "--measurement-time", "0.3", "--noplot"];
+    cargo(&[&bench[..], &short].concat(), None)?;
+    let mut timings = timings::of_criterion(&results)?;
+    let without_peers = peers(&target, &mut timings).err();
+    let (operations, circumstances) = (BTreeMap::new(), circumstances());
+    let peak = f64::NAN;
+    let measured = Measured { timings, operations, peak, circumstances, without_peers };
+    if let Some(why) = &measured.without_peers {
+        return Err(why.clone());
+    }
+    print!("{}", page::ratios(&measured));
     Ok(())
 }
 

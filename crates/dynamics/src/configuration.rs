@@ -1,7 +1,7 @@
 //! What the positions of the joints give: where the links are, and what they weigh there.
 
 use crate::composite_inertia::compose_links;
-use crate::posture::{place_links, turn_joints, turn_joints_on};
+use crate::posture::place_links;
 use crate::{BaseRows, CompositeInertia, Posture, Robot};
 use wrasse_spatial::{At, Real, Rows, SpatialVelocity, kernel};
 
@@ -24,24 +24,7 @@ kernel! {
         configuration: &mut Configuration<T, J>,
     ) {
         let Configuration { posture, composite, base } = configuration;
-        turn_joints::<L, J>(robot, q, posture);
-        place_links::<L, J>(robot, posture);
-        compose_links::<L, J>(robot, posture, composite, base);
-    }
-}
-
-kernel! {
-    /// The same beside a configuration close by: sines of the joints are not worked out again, but
-    /// turned on by the small angles in between; to the last digit up to 0.1 rad.
-    pub fn configure_near<L, T, J>(
-        robot: &Robot<T, J>,
-        q: &[T; J],
-        near: &Configuration<T, J>,
-        configuration: &mut Configuration<T, J>,
-    ) {
-        let Configuration { posture, composite, base } = configuration;
-        turn_joints_on::<L, J>(robot, q, &near.posture, posture);
-        place_links::<L, J>(robot, posture);
+        place_links::<L, J>(robot, q, posture);
         compose_links::<L, J>(robot, posture, composite, base);
     }
 }

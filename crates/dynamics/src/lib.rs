@@ -40,7 +40,7 @@ pub use barycentric_vectors::{barycentric_vectors, virtual_manipulator};
 pub use base_response::{BaseResponse, base_response, base_response_rate};
 pub use cholesky::Cholesky;
 pub use composite_inertia::{BaseRows, CompositeInertia, compose};
-pub use configuration::{Configuration, configure, configure_near};
+pub use configuration::{Configuration, configure};
 pub use energy::kinetic_energy;
 pub use factorization::Factorization;
 pub use forward_dynamics::{

@@ -6,7 +6,7 @@ use core::ops::Add;
 use wrasse_spatial::{At, Real};
 
 /// What a joint is mounted on.
-enum Mount {
+pub(crate) enum Mount {
     Base,
     /// The link with the number before: what it has is still in registers.
     LinkBefore,
@@ -15,7 +15,7 @@ enum Mount {
 
 impl<T: Real, const J: usize> Robot<T, J> {
     #[inline(always)]
-    fn mount(&self, j: usize) -> Mount {
+    pub(crate) fn mount(&self, j: usize) -> Mount {
         let j = within::<J>(j);
         match self.links.parent[j] {
             _ if self.links.follows[j] => Mount::LinkBefore,

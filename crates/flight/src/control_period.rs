@@ -12,7 +12,7 @@ use crate::resolved_motion::{
     Assignment, Belief, JointUse, Resolved, ResolvedMotion, WantedMotion, resolved_motion_in,
 };
 use crate::trajectory::{JointSetPoint, ToolMotion};
-use wrasse_dynamics::{Configuration, InverseDynamics, Robot, State, configure, configure_near};
+use wrasse_dynamics::{Configuration, InverseDynamics, Robot, State, configure};
 use wrasse_hardware::SetPoint;
 use wrasse_spatial::{
     Mat3, Pose, Quat, Real, SpatialForce, SpatialInertia, SpatialMomentum, SpatialVelocity, Vec3,
@@ -310,7 +310,7 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         setup: &Setup<T, J>,
         joints: &JointUse<T, J>,
     ) -> (PeriodEnd<T>, T) {
-        configure_near(robot, &self.belief.q, &self.middle, &mut self.end);
+        configure(robot, &self.belief.q, &mut self.end);
         let X_BE = self.end.posture.pose(robot, &setup.assignment.tool);
         let X = match self.axes {
             Axes::Inertial => self.belief.X_NB * X_BE,

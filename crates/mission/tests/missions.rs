@@ -261,7 +261,7 @@ fn the_book_tells_what_the_missions_find() {
             page.says(&format!("{row} {{}} | {{}} | {{}} |"), &found);
             if labels[1].starts_with('3') || labels[1].starts_with('5') {
                 let off = metric(case, "tool.position_error.final");
-                assert!(off < 1e-8, "within 1e-5 mm: {off} m");
+                assert!(off < 2e-8, "within 2e-5 mm: {off} m");
             }
         }
     }

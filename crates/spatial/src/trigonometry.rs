@@ -82,9 +82,10 @@ fn near_sin_cos_f32<R: Real>(x: R) -> (R, R) {
 #[inline(always)]
 fn reduce<R: Real>(x: R, by: &QuarterTurn) -> Reduced<R> {
     let c = R::from_f64;
-    let rounded = |y: R| (y + c(by.rounder)) - c(by.rounder);
-    let n = rounded(x * c(core::f64::consts::FRAC_2_PI));
-    let whole_turns = rounded((n - c(1.5)) * c(0.25));
+    // No closure: it would not be inlined into what is built for wider registers.
+    let rounder = c(by.rounder);
+    let n = (x * c(core::f64::consts::FRAC_2_PI) + rounder) - rounder;
+    let whole_turns = ((n - c(1.5)) * c(0.25) + rounder) - rounder;
     let near = x - n * c(by.parts[0]);
     let second = n * c(by.parts[1]);
     let r = near - second;

@@ -77,12 +77,10 @@ fn on_avx512<W: Work>(work: W) -> W::Out {
 /// Run an algorithm on the level in use, with links abreast where the robot has room for whole groups.
 #[inline(always)]
 pub(crate) fn dispatch<K: Kernel<f64>>(kernel: K) -> K::Out {
-    // SAFETY: a level that the processor lacks is never in use.
+    // Eight links abreast are no quicker than twice four: most of the rest goes from link to link.
     match Level::in_use() {
-        Level::Avx512 if const { K::CAPACITY.is_multiple_of(4) } => unsafe {
-            on_avx512(With::<K, FourAbreast>::layout(kernel))
-        },
-        Level::Avx2 if const { K::CAPACITY.is_multiple_of(4) } => unsafe {
+        // SAFETY: a level that the processor lacks is never in use, and each has those below it.
+        Level::Avx2 | Level::Avx512 if const { K::CAPACITY.is_multiple_of(4) } => unsafe {
             on_avx2(With::<K, FourAbreast>::layout(kernel))
         },
         _ if const { K::CAPACITY.is_multiple_of(2) } => {

@@ -8,8 +8,8 @@ use crate::toml_reading::{Reading, under};
 use crate::torque_cone::can_make;
 use crate::vehicle::{JOINTS, VehicleRobot};
 use wrasse_document::{Complaint, Document, Step};
-use wrasse_dynamics::{BodyId, State, kinematics};
-use wrasse_spatial::{Sym3, Vec3, vec3};
+use wrasse_dynamics::{BodyId, PerBody};
+use wrasse_spatial::{Pose, Sym3, Vec3, vec3};
 
 /// Complaints about equipment that does not suit a robot: units heavier than the base that they are
 /// part of, thrusters that cannot turn it. `path` is where the table of the equipment stands.
@@ -112,8 +112,17 @@ fn check_thrusters(
 
 /// Centre of mass of the vehicle with its propellant, all joints at zero, in the base's frame (m).
 fn centre_of_mass(equipment: &Equipment, robot: &VehicleRobot) -> Vec3<f64> {
-    let state = State::<f64, JOINTS>::default();
-    let (mass, p_cm) = kinematics(robot, &state).centre_of_mass();
+    let mut X: PerBody<Pose<f64>, JOINTS> = PerBody::filled(Pose::identity());
+    let mut moment = Vec3::zero();
+    for body in robot.bodies() {
+        if let BodyId::Link(j) = body {
+            let joint = robot.joint(j);
+            X[body] = X[joint.parent] * joint.X_PB(0.0);
+        }
+        let M = robot.inertia(body);
+        moment += X[body].translation * M.mass + X[body].rotation * M.first_moment;
+    }
+    let (mass, p_cm) = (robot.mass(), moment * (1.0 / robot.mass()));
     match equipment.actuators.tank {
         None => p_cm,
         Some(tank) => {

@@ -73,7 +73,7 @@ impl<const J: usize> World<J> {
             let gone = if done < count { from + done * h } else { to };
             self.accept(&d, self.into_period + gone)?;
         }
-        self.places = Some(places);
+        self.places.set(Some(places));
         Ok(())
     }
 
@@ -102,7 +102,7 @@ impl<const J: usize> World<J> {
                 h = trial * factor;
             }
         }
-        self.places = Some(places);
+        self.places.set(Some(places));
         Ok(())
     }
 

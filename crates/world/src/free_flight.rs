@@ -5,9 +5,7 @@ use crate::flow::Flow;
 use crate::setup::{BaseAttitude, Drive};
 use crate::stepper::Displacement;
 use crate::world::SystemState;
-use wrasse_dynamics::{
-    BaseMode, BaseRows, Dynamics, JointDrive, Robot, State, base_rows, kinematics,
-};
+use wrasse_dynamics::{BaseMode, BaseRows, Dynamics, JointDrive, Robot, State};
 use wrasse_spatial::{
     Pose, Real, SpatialForce, SpatialVelocity, Vec3, rotation_vector_rate, turned_by,
 };
@@ -36,19 +34,6 @@ impl BaseAttitude {
 }
 
 impl<T: Real, const J: usize> FreeFlight<'_, T, J> {
-    /// Pose and twist of the base and the joints' state that a system state means, `t` (s) into the
-    /// current set-points, with `inside_B` the momentum beside the bodies (N·m·s, base axes).
-    #[inline(always)]
-    pub(crate) fn expand(
-        &self,
-        system: &SystemState<J, T>,
-        inside_B: Vec3<T>,
-        t: f64,
-    ) -> State<T, J> {
-        let bent = self.bent(system, t);
-        self.moving(&bent, &base_rows(&kinematics(self.robot, &bent)), system, inside_B)
-    }
-
     /// The joints' state that a system state means, `t` (s) into the current set-points.
     #[inline(always)]
     pub(crate) fn bent(&self, system: &SystemState<J, T>, t: f64) -> State<T, J> {

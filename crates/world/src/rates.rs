@@ -6,7 +6,7 @@ use crate::setup::BaseAttitude;
 use crate::world::{SystemState, World};
 use wrasse_dynamics::{
     BodyId, Configuration, Dynamics, ForwardDynamics, Kinematics, Outside, PerBody, State,
-    accelerate, configure, driven_dynamics, kinematics,
+    accelerate, configure, kinematics,
 };
 use wrasse_hardware::{GYROS, WHEELS};
 use wrasse_spatial::{SpatialForce, Vec3};
@@ -27,7 +27,13 @@ impl<const J: usize> World<J> {
     /// Pose and twist of the base and the joints' state that a system state means, at `t` (s) into
     /// the current set-points.
     pub(crate) fn expand(&self, system: &SystemState<J>, t: f64) -> State<f64, J> {
-        self.vehicle().expand(system, self.inside_B(system), t)
+        let vehicle = self.vehicle();
+        let (bent, mut places) = (vehicle.bent(system, t), self.places.take().unwrap_or_default());
+        configure(&self.robot, &bent.q, &mut places.configuration);
+        let rows = &places.configuration.base;
+        let state = vehicle.moving(&bent, rows, system, self.inside_B(system));
+        self.places.set(Some(places));
+        state
     }
 
     /// Accelerations and forces at a state, with the drives as they are at `t` (s).
@@ -37,9 +43,15 @@ impl<const J: usize> World<J> {
         t: f64,
         acting: &Acting<J>,
     ) -> Dynamics<f64, J> {
-        let drives = self.vehicle().joint_drives(t);
+        let (drives, nu) = (self.vehicle().joint_drives(t), k.state.velocity());
         let pushed = acting.on_bodies(self.actuator_torque_B);
-        driven_dynamics(k, &drives, self.base.mode(), pushed)
+        let mut places = self.places.take().unwrap_or_default();
+        let Places { configuration, forward } = &mut *places;
+        configure(k.robot, &k.state.q, configuration);
+        accelerate(k.robot, configuration, &nu, &drives, self.base.mode(), pushed, forward);
+        let found = forward.found;
+        self.places.set(Some(places));
+        found
     }
 
     /// What wheels and gyros hold beside the bodies, base axes (N·m·s).

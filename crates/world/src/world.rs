@@ -9,6 +9,7 @@ use crate::setup::{BaseAttitude, Drive, Equipment, Instant, OutsideWrench, World
 use crate::stepper::{Displacement, Stepper};
 use crate::thrusters::Thrusters;
 use crate::wheels::Wheels;
+use std::cell::Cell;
 use std::fmt;
 use wrasse_dynamics::{
     BodyId, Dynamics, Frame, Kinematics, MassProperties, PerBody, Robot, State, kinematics,
@@ -118,7 +119,7 @@ pub struct World<const J: usize> {
     /// Last accepted step of the adaptive stepper (s).
     pub(crate) last_step: f64,
     /// Places for the right-hand side; they are away while it is worked out.
-    pub(crate) places: Option<Box<Places<J>>>,
+    pub(crate) places: Cell<Option<Box<Places<J>>>>,
 }
 
 impl<const J: usize> fmt::Debug for World<J> {
@@ -176,7 +177,7 @@ impl<const J: usize> World<J> {
             period_start: 0.0,
             into_period: 0.0,
             last_step: 0.01,
-            places: Some(Box::default()),
+            places: Cell::new(Some(Box::default())),
         };
         world.start(&setup.start, &equipment);
         world

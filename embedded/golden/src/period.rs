@@ -37,14 +37,14 @@ pub struct Start<T, const J: usize> {
     asked: Asked<T, J>,
 }
 
-/// One arm of seven joints; nothing if its table is no robot.
-pub fn one_arm<T: Scalar>(law: ArmLaw) -> Option<Subject<T, 7>> {
+/// One arm of seven joints; nothing if its table is no robot, or has not the room.
+pub fn one_arm<T: Scalar, const J: usize>(law: ArmLaw) -> Option<Subject<T, J>> {
     use atlas_class::{BASE, LINKS, TOOL};
     subject(&BASE, &LINKS, &TOOL, law)
 }
 
 /// Two arms of seven joints.
-pub fn two_arms<T: Scalar>(law: ArmLaw) -> Option<Subject<T, 14>> {
+pub fn two_arms<T: Scalar, const J: usize>(law: ArmLaw) -> Option<Subject<T, J>> {
     use atlas_class_two_arms::{BASE, LINKS, TOOL};
     subject(&BASE, &LINKS, &TOOL, law)
 }

@@ -24,10 +24,10 @@ impl Number for f64 {
 /// Run all of them: lines `arms law state ticks bits`, then for each subject `arms law stack bytes`.
 /// The bits are a hash of all the numbers that a period gives.
 pub fn run<T: Number>(machine: &mut impl Machine) {
-    each("one held ", one_arm::<T>(ArmLaw::AttitudeHeld), machine);
-    each("one floating ", one_arm::<T>(ArmLaw::FreeFloating), machine);
-    each("two held ", two_arms::<T>(ArmLaw::AttitudeHeld), machine);
-    each("two floating ", two_arms::<T>(ArmLaw::FreeFloating), machine);
+    each("one held ", one_arm::<T, 7>(ArmLaw::AttitudeHeld), machine);
+    each("one floating ", one_arm::<T, 7>(ArmLaw::FreeFloating), machine);
+    each("two held ", two_arms::<T, 14>(ArmLaw::AttitudeHeld), machine);
+    each("two floating ", two_arms::<T, 14>(ArmLaw::FreeFloating), machine);
 }
 
 fn each<T: Number, const J: usize>(

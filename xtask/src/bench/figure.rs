@@ -32,7 +32,7 @@ pub(super) fn figure(measured: &Measured) -> String {
     }
     let _ = writeln!(
         svg,
-        "<text x=\"{:.1}\" y=\"{:.1}\">times faster than the peer (–): blue single, orange a lane; \
+        "<text x=\"{:.1}\" y=\"{:.1}\">times faster than the peer (–): blue single, orange each of many; \
          the stroke is what was asked</text>\n</svg>",
         LEFT - 60.0,
         height - 12.0
@@ -54,8 +54,7 @@ fn bars(svg: &mut String, row: &Row, y: f64) {
         row.quantity,
         row.vehicle.replace("base and ", "").replace("base, ", "")
     );
-    let ways =
-        [(Some(row.single), Some(row.asked.0), "#2b6cb0"), (row.lane, row.asked.1, "#dd6b20")];
+    let ways = [(Some(row.single), row.asked.0, "#2b6cb0"), (row.lane, row.asked.1, "#dd6b20")];
     for (k, (own, asked, colour)) in ways.into_iter().enumerate() {
         let top = y + 12.0 * k as f64;
         if let Some(own) = own {

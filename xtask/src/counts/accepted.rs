@@ -10,7 +10,7 @@ const TOLERANCE: f64 = 0.03;
 
 const HEAD: &str = "\
 # Instructions of one call of each main kernel, joint trigonometry included: callgrind on a plain
-# release build for x86-64, vehicle atlas-class (7 joints) and atlas-class-two-arms (14), median where
+# release build for x86-64 with AVX2, vehicle atlas-class (7 joints, room for 8) and atlas-class-two-arms (14 of 16), median where
 # a kernel is counted in many states. Written by `cargo xtask counts --accept`.
 ";
 

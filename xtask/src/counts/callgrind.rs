@@ -17,10 +17,9 @@ const PLAIN_COPIES: &str = "glibc.cpu.hwcaps=-AVX512F,-AVX512VL,-AVX2,-AVX,-ERMS
 
 /// Most instructions that one control period of one seven-joint arm should take, `f64`, on the host:
 /// a target, whose miss is told and does not fail.
-const BUDGET: u64 = 25_000;
-
-/// What the budget is for: the law that the paper uses and the one that leaves the base free.
-const BUDGETED: [&str; 2] = ["control_period_held/7", "control_period_floating/7"];
+/// The law that the paper uses, and the one that leaves the base free.
+const BUDGETED: [(&str, u64); 2] =
+    [("control_period_held/7", 24_700), ("control_period_floating/7", 28_000)];
 
 /// Most that the worst state may take beyond the median (–).
 const SPREAD: f64 = 0.10;
@@ -113,13 +112,13 @@ impl Counted {
     /// How the worst state of the control period stands to its budget, one law a line.
     pub(super) fn against_budget(&self) -> String {
         let mut text = String::new();
-        for name in BUDGETED {
+        for (name, budget) in BUDGETED {
             let Some(Spread { largest, .. }) = self.kernels.get(name) else { continue };
-            let verdict = if *largest > BUDGET { "MISSED" } else { "met" };
-            let share = *largest as f64 / BUDGET as f64;
+            let verdict = if *largest > budget { "MISSED" } else { "met" };
+            let share = *largest as f64 / budget as f64;
             let _ = writeln!(
                 text,
-                "target of {BUDGET} instructions {verdict}: {name} takes {largest} ({share:.2} of it)"
+                "target of {budget} instructions {verdict}: {name} takes {largest} ({share:.2} of it)"
             );
         }
         text
@@ -128,7 +127,7 @@ impl Counted {
     /// Where the control period is not counted, or takes much more in some states than in others.
     pub(super) fn uneven(&self) -> Vec<String> {
         let mut findings = Vec::new();
-        for name in BUDGETED {
+        for (name, _) in BUDGETED {
             let Some(found) = self.kernels.get(name) else {
                 findings.push(format!("{name}: not counted"));
                 continue;
@@ -152,7 +151,7 @@ mod tests {
 
     fn periods(median: u64, largest: u64) -> Counted {
         let spread = Spread { smallest: median, median, largest };
-        let kernels = BUDGETED.map(|name| (name.to_owned(), spread));
+        let kernels = BUDGETED.map(|(name, _)| (name.to_owned(), spread));
         Counted { compiler: String::new(), kernels: kernels.into() }
     }
 

@@ -5,12 +5,14 @@
 
 use std::hint::black_box;
 use wrasse_dynamics::{
-    Generalized, Outside, base_rows, forward_dynamics, generalized_jacobian, inverse_dynamics,
-    jacobian, kinematics, mass_matrix, momentum_matrix,
+    BaseMode, Configuration, ForwardDynamics, Generalized, InverseDynamics, JointDrive, MassMatrix,
+    Outside, accelerate, configure, drive, fill, forward_dynamics_derivatives, generalized_columns,
+    generalized_jacobian, inverse_dynamics_derivatives, jacobian, jacobian_columns, kinematics,
+    momentum_columns, momentum_matrix, place,
 };
 use wrasse_flight::ArmLaw;
 use wrasse_golden_periods::{STATES, Subject, one_arm, two_arms};
-use wrasse_spatial::{SpatialForce, SpatialVelocity};
+use wrasse_spatial::{Level, SpatialForce, SpatialVelocity};
 
 /// What the counter counts: from entering this function to leaving it.
 #[inline(never)]
@@ -19,34 +21,63 @@ fn counted<R>(call: impl FnOnce() -> R) -> R {
 }
 
 /// Count one call, and say which it was.
-fn count<R>(name: &str, joints: usize, call: impl FnOnce() -> R) {
-    black_box(counted(call));
+fn count(name: &str, joints: usize, call: impl FnOnce()) {
+    counted(call);
     println!("{name}/{joints}");
 }
 
-/// Kernels from the state on, the sines and cosines of the joints included.
+/// Kernels from the state on, the sines and cosines of the joints included, into places that are there.
 fn kernels<const J: usize>(subject: &Subject<f64, J>) {
     let (robot, state) = (black_box(&subject.robot), subject.start(1).state);
-    let state = black_box(&state);
-    let tool = black_box(&subject.setup.assignment.tool);
+    let (state, n) = (black_box(&state), robot.joint_count());
+    let (tool, nu) = (black_box(&subject.setup.assignment.tool), state.velocity());
     let nudot = Generalized { base: SpatialVelocity::zero(), joints: [0.1; J] };
     let force = Generalized { base: SpatialForce::zero(), joints: [0.5; J] };
-    count("kinematics", J, || kinematics(robot, state));
-    count("inverse_dynamics", J, || {
-        inverse_dynamics(&kinematics(robot, state), &nudot, Outside::nothing())
+    let drives = force.joints.map(JointDrive::Effort);
+    let (mut at, none) = (Configuration::new(), Outside::nothing());
+    let mut k = kinematics(robot, state);
+    count("posture", n, || place(robot, &state.q, &mut at.posture));
+    count("configuration", n, || configure(robot, &state.q, &mut at));
+    let mut inverse = InverseDynamics::new();
+    count("inverse_dynamics", n, || {
+        place(robot, &state.q, &mut at.posture);
+        drive(robot, &at.posture, &nu, &nudot, none, &mut inverse);
     });
-    count("forward_dynamics", J, || {
-        forward_dynamics(&kinematics(robot, state), &force, Outside::nothing())
+    let mut forward = ForwardDynamics::new();
+    count("forward_dynamics", n, || {
+        configure(robot, &state.q, &mut at);
+        accelerate(robot, &at, &nu, &drives, BaseMode::Free, none, &mut forward);
     });
-    count("mass_matrix", J, || mass_matrix(&kinematics(robot, state)));
-    count("momentum_matrix", J, || {
-        momentum_matrix(&base_rows(&kinematics(robot, state)), &state.X_NB.rotation)
+    let mut M = MassMatrix::new();
+    count("mass_matrix", n, || {
+        place(robot, &state.q, &mut at.posture);
+        fill(robot, &at.posture, &mut at.composite, &mut M);
     });
-    count("jacobian", J, || jacobian(&kinematics(robot, state), tool));
-    count("generalized_jacobian", J, || {
-        let k = kinematics(robot, state);
-        generalized_jacobian(&jacobian(&k, tool), &base_rows(&k))
+    let mut A = momentum_matrix(&at.base, &state.X_NB.rotation);
+    count("momentum_matrix", n, || {
+        configure(robot, &state.q, &mut at);
+        momentum_columns(&at.base, &state.X_NB.rotation, &mut A);
     });
+    let (mut J_tool, mut columns) =
+        (jacobian(&k, tool), generalized_jacobian(&jacobian(&k, tool), &M));
+    count("jacobian", n, || {
+        place(robot, &state.q, &mut at.posture);
+        jacobian_columns(robot, &at.posture, tool, &mut J_tool);
+    });
+    count("generalized_jacobian", n, || {
+        configure(robot, &state.q, &mut at);
+        jacobian_columns(robot, &at.posture, tool, &mut J_tool);
+        generalized_columns(&J_tool, &at.base, &mut columns);
+    });
+    count("inverse_dynamics_derivatives", n, || {
+        place(robot, &state.q, &mut k.posture);
+        black_box(inverse_dynamics_derivatives(&k, &nudot, none));
+    });
+    count("forward_dynamics_derivatives", n, || {
+        place(robot, &state.q, &mut k.posture);
+        black_box(forward_dynamics_derivatives(&k, &force, none));
+    });
+    black_box((&at, &inverse, &forward, &M, &A, &J_tool, &columns));
 }
 
 /// Control periods over the first golden states.
@@ -54,13 +85,15 @@ fn periods<const J: usize>(law: &str, subject: &Subject<f64, J>, states: u32) {
     for number in 0..states {
         let mut start = subject.start(number);
         black_box(counted(|| subject.period(black_box(&mut start))));
-        println!("control_period_{law}/{J}");
+        println!("control_period_{law}/{}", subject.robot.joint_count());
     }
 }
 
 fn main() {
-    let one = |law| one_arm::<f64>(law).expect("the table is a robot");
-    let two = |law| two_arms::<f64>(law).expect("the table is a robot");
+    // Four links abreast, whatever more this processor has.
+    Level::Avx2.restrict();
+    let one = |law| one_arm::<f64, 8>(law).expect("the table is a robot");
+    let two = |law| two_arms::<f64, 16>(law).expect("the table is a robot");
     kernels(&one(ArmLaw::AttitudeHeld));
     kernels(&two(ArmLaw::AttitudeHeld));
     periods("held", &one(ArmLaw::AttitudeHeld), STATES);

@@ -47,10 +47,10 @@ fn main() {
         Some("single") => run::<f32>(&mut Host),
         Some("double") => run::<f64>(&mut Host),
         Some("difference") => {
-            difference("one held", one_arm(AttitudeHeld), one_arm(AttitudeHeld));
-            difference("one floating", one_arm(FreeFloating), one_arm(FreeFloating));
-            difference("two held", two_arms(AttitudeHeld), two_arms(AttitudeHeld));
-            difference("two floating", two_arms(FreeFloating), two_arms(FreeFloating));
+            difference::<7>("one held", one_arm(AttitudeHeld), one_arm(AttitudeHeld));
+            difference::<7>("one floating", one_arm(FreeFloating), one_arm(FreeFloating));
+            difference::<14>("two held", two_arms(AttitudeHeld), two_arms(AttitudeHeld));
+            difference::<14>("two floating", two_arms(FreeFloating), two_arms(FreeFloating));
         }
         _ => eprintln!("usage: on_host single|double|difference"),
     }
