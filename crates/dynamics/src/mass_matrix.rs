@@ -71,23 +71,26 @@ fn joint_row<L: Layout, const J: usize>(
 ) {
     let (arm, F) = (robot.links.arm[j], base.M_bj.at(j));
     let F = SpatialForce::new(L::all3(F.torque), L::all3(F.force));
-    let (first, row): (Group<L>, _) = (Group::of(arm.first), &mut M_jj[j]);
+    let (above, row) = M_jj.split_at_mut(j);
+    let Some(row) = row.first_mut() else { return };
+    let first: Group<L> = Group::of(arm.first);
     let mut i = first;
     while i.first() <= j {
         row.put(i, base.S.at(i).power(&F));
         i = i.next();
     }
     // Groups reach over the ends of the arm, into others.
-    let (before, behind) = (first.first()..arm.first, arm.end..i.first().min(robot.joint_count()));
-    for i in before.chain(behind) {
-        row[i.min(J - 1)] = L::One::zero();
+    let end = i.first().min(robot.joint_count());
+    if first.first() < arm.first || arm.end < end {
+        for i in (first.first()..arm.first).chain(arm.end..end) {
+            row.put(i, L::One::zero());
+        }
     }
     if robot.links.forked[j] {
         robot.leave_way_to(j, row);
     }
-    let row = *row;
-    for i in arm.first..j.min(J) {
-        M_jj[i][j] = row[i];
+    for (i, other) in above.iter_mut().enumerate().skip(arm.first) {
+        other[j] = row[i];
     }
 }
 

@@ -1,5 +1,6 @@
 //! Links abreast in registers of any width, one by one, and vehicles side by side: the same bits. One
 //! test alone: the level is the program's.
+#![allow(clippy::unwrap_used, reason = "a test that unwraps nothing fails")]
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
 #[allow(dead_code, reason = "other tests ask more of the same robots")]

@@ -1,4 +1,5 @@
 //! Arms of 15 m with light tips: what is small at the end of something long must not be lost.
+#![allow(clippy::unwrap_used, reason = "a test that unwraps nothing fails")]
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
 #[allow(dead_code, reason = "other tests ask more of the same robots")]
