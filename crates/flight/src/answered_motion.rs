@@ -70,8 +70,8 @@ pub(crate) fn swing_B<T: Real>(M_bb: &SpatialInertia<T>, h_rates: &SpatialMoment
     h_rates.about(M_bb.centre_of_mass()).torque
 }
 
-/// Total momentum about the system's centre of mass, inertial axes, as far as the law asks for it: all of
-/// it, its linear part, or nothing.
+/// Total momentum about the system's centre of mass, base axes, as far as the law asks for it: all of it,
+/// its linear part, or nothing.
 #[inline(always)]
 pub(crate) fn momentum_for<T: Real, const J: usize>(
     law: ArmLaw,
@@ -79,11 +79,9 @@ pub(crate) fn momentum_for<T: Real, const J: usize>(
     state: &wrasse_dynamics::State<T, J>,
 ) -> SpatialMomentum<T> {
     let h = M.momentum_of_rates(&state.v) + M.M_bb * state.V_NB_B;
-    let h = match law.base() {
-        BaseMode::Fixed => return SpatialMomentum::zero(),
+    match law.base() {
+        BaseMode::Fixed => SpatialMomentum::zero(),
         BaseMode::AttitudeHeld => SpatialMomentum::new(Vec3::zero(), h.force),
         BaseMode::Free => h.about(M.M_bb.centre_of_mass()),
-    };
-    let R_NB = &state.X_NB.rotation;
-    SpatialMomentum::new(*R_NB * h.torque, *R_NB * h.force)
+    }
 }

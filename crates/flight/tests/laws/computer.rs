@@ -195,6 +195,29 @@ fn joints_that_stop_at_once_cost_one_period_of_the_drift() {
     off.is_below(1e-7);
 }
 
+/// A base that is measured, and moves as the law believes, has the momentum that it began with: what is
+/// read a period after the other is the same momentum, although it is taken half a period on. Measured
+/// over 1500 periods 3.9e-4 of 3.6 N·m·s and 2.1e-4 of 9.3 N·s, most of it where a phase begins.
+#[test]
+fn a_law_that_measures_the_base_reads_the_same_momentum_in_each_period() {
+    let (robot, start) = (robot(), drifting());
+    let h = momentum(&kinematics(&robot, &start));
+    let phases = [aside(Axes::Base, 8.0), joints_to(start.q.map(|q| q - 0.25), 7.0)];
+    let free = setup(ArmLaw::FreeFloating, Measurement::Base);
+    let mut flight = Flight::new(&free, start, &phases);
+    let (mut state, mut angular, mut linear) = (start, Worst::none(), Worst::none());
+    while !flight.computer.done() {
+        let sensed = Sensed::perfect(&state, ActuatorReadings::default());
+        flight.computer.step(&sensed).unwrap();
+        state = flight.computer.believed_state();
+        let now = momentum(&kinematics(&robot, &state));
+        angular.see((now.angular - h.angular).norm());
+        linear.see((now.linear - h.linear).norm());
+    }
+    angular.is_below(1e-3);
+    linear.is_below(1e-3);
+}
+
 /// Attitude of the base a period later while the joints go from set-point to set-point and the momentum
 /// stays: a step of order four on the rotation vector, with the twist by momentum at each stage.
 fn carried(

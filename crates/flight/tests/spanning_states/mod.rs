@@ -9,7 +9,7 @@ use wrasse_flight::{
     NavigationSetup, PeriodMemory, Setup, Task, Told, Tuning, control_period,
 };
 use wrasse_hardware::JointLimits;
-use wrasse_spatial::{Mat3, Pose, Quat, Real, SpatialVelocity, Sym3, Vec3, vec3};
+use wrasse_spatial::{Mat3, Pose, Quat, Real, SpatialMomentum, SpatialVelocity, Sym3, Vec3, vec3};
 
 /// How many states there are.
 pub(crate) const STATES: usize = 1000;
@@ -159,6 +159,10 @@ impl<const J: usize> Period<J> {
     /// The vehicle as it is believed to move after the period.
     pub(crate) fn believed_state(&self) -> State<f64, J> {
         self.memory.believed_state()
+    }
+    /// The momentum that it is believed to have.
+    pub(crate) fn believed_momentum(&self) -> SpatialMomentum<f64> {
+        self.memory.belief.h_Scm_N
     }
     /// Flies both periods over another scalar, from the same numbers.
     pub(crate) fn flown_in<T: Real>(
