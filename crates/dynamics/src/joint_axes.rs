@@ -1,7 +1,7 @@
 //! Axes of the links in which each joint is simple.
 
 use crate::Joint;
-use wrasse_spatial::{Mat3, Real, Scalar, Turn, Turned, Vec3, vec3};
+use wrasse_spatial::{Mat3, Real, Scalar, Turn, Vec3, vec3};
 
 /// How the axes L of a link lie on those of its parent P.
 ///

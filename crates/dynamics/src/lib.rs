@@ -25,6 +25,7 @@ mod kinematics;
 mod link_rows;
 mod mass_matrix;
 mod momentum;
+mod operational_inertia;
 mod outside;
 mod posture;
 mod printed_reaction;
@@ -61,6 +62,7 @@ pub use mass_matrix::{MassMatrix, base_rows, fill, mass_matrix};
 pub use momentum::{
     Momentum, MomentumMatrix, base_twist, momentum, momentum_columns, momentum_matrix,
 };
+pub use operational_inertia::{factorize, inverse_operational_inertia, operational_inertia};
 pub use outside::Outside;
 pub use posture::{Posture, place};
 pub use printed_reaction::{PrintedReaction, printed_reaction};

@@ -1,9 +1,10 @@
 //! The mass matrix, in the blocks that the theory names.
 
 use crate::composite_inertia::compose_links;
+use crate::robot::within;
 use crate::{BaseRows, BodyId, CompositeInertia, Kinematics, Posture, Robot, compose};
 use core::ops::Deref;
-use wrasse_spatial::{At, Group, Layout, Real, SpatialForce, kernel};
+use wrasse_spatial::{At, Group, Layout, Real, SpatialForce, groups, kernel};
 
 /// `M(q)` in blocks; rows and columns ordered `[w_NB_B; v_NB_B; q̇]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,41 +57,64 @@ kernel! {
         let MassMatrix { base, M_jj } = M;
         compose_links::<L, J>(robot, posture, composite, base);
         for j in robot.joints() {
-            joint_row::<L, J>(robot, base, j, M_jj);
+            lower_row::<L, J>(robot, base, j, M_jj);
+        }
+        for rows in groups::<L, J>(robot.joint_count()) {
+            mirror::<L, J>(robot, rows, M_jj);
         }
     }
 }
 
-/// `M_ij = S_iᵀ M_bj`, for a joint j and those joints i of its arm that carry it.
+/// `M_ij = S_iᵀ M_bj`, for a joint j and those joints i of its arm that carry it. The group of j itself
+/// reaches over it, into what [`mirror`] fills.
 #[inline(always)]
-fn joint_row<L: Layout, const J: usize>(
+fn lower_row<L: Layout, const J: usize>(
     robot: &Robot<L::One, J>,
     base: &BaseRows<L::One, J>,
     j: usize,
     M_jj: &mut [[L::One; J]; J],
 ) {
-    let (arm, F) = (robot.links.arm[j], base.M_bj.at(j));
+    let j = within::<J>(j);
+    let (arm, F, row) = (robot.links.arm[j], base.M_bj.at(j), &mut M_jj[j]);
     let F = SpatialForce::new(L::all3(F.torque), L::all3(F.force));
-    let (above, row) = M_jj.split_at_mut(j);
-    let Some(row) = row.first_mut() else { return };
     let first: Group<L> = Group::of(arm.first);
     let mut i = first;
     while i.first() <= j {
         row.put(i, base.S.at(i).power(&F));
         i = i.next();
     }
-    // Groups reach over the ends of the arm, into others.
-    let end = i.first().min(robot.joint_count());
-    if first.first() < arm.first || arm.end < end {
-        for i in (first.first()..arm.first).chain(arm.end..end) {
-            row.put(i, L::One::zero());
-        }
+    // The first group may begin in the arm before.
+    for i in first.first()..arm.first {
+        row[within::<J>(i)] = L::One::zero();
     }
     if robot.links.forked[j] {
         robot.leave_way_to(j, row);
     }
-    for (i, other) in above.iter_mut().enumerate().skip(arm.first) {
-        other[j] = row[i];
+}
+
+/// The columns of a group of joints from their rows.
+#[inline(always)]
+fn mirror<L: Layout, const J: usize>(
+    robot: &Robot<L::One, J>,
+    rows: Group<L>,
+    M_jj: &mut [[L::One; J]; J],
+) {
+    let first = within::<J>(rows.first());
+    for columns in rows.from(Group::of(robot.links.arm[first].first)) {
+        let mut square = L::square(L::Some::zero());
+        for r in 0..L::LINKS {
+            square[r] = M_jj[within::<J>(first + r)].at(columns);
+        }
+        let square = L::transpose(square);
+        for c in 0..L::LINKS {
+            M_jj[within::<J>(columns.first() + c)].put(rows, square[c]);
+        }
+    }
+    for r in 0..L::LINKS {
+        for c in 0..r {
+            let (r, c) = (within::<J>(first + r), within::<J>(first + c));
+            M_jj[c][r] = M_jj[r][c];
+        }
     }
 }
 

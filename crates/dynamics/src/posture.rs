@@ -1,7 +1,6 @@
 //! Where the links are relative to the base.
 
 use crate::robot::within;
-use crate::tree::Mount;
 use crate::{BodyId, Frame, Robot};
 use wrasse_spatial::{At, Group, Layout, Mat3, Pose, Real, Rows, Turn, Vec3, groups, kernel, vec3};
 
@@ -53,11 +52,7 @@ pub(crate) fn place_links<L: Layout, const J: usize>(
     // Base to tips, as `base_to_tips` goes; a closure of this size would not be inlined.
     let (base, mut before) = (Mat3::identity(), Mat3::identity());
     for j in robot.joints() {
-        let R_BP = match robot.mount(j) {
-            Mount::LinkBefore => before,
-            Mount::Base => base,
-            Mount::Link(p) => R_BL.at(p),
-        };
+        let R_BP = robot.of_parent(j, base, before, R_BL);
         let theta = Turn { sin: sin.at(j), cos: cos.at(j) };
         before = links.axes[within::<J>(j)].R_AL(&R_BP, &theta);
         R_BL.put(j, before);

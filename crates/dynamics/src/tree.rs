@@ -6,7 +6,7 @@ use core::ops::Add;
 use wrasse_spatial::{At, Real};
 
 /// What a joint is mounted on.
-pub(crate) enum Mount {
+enum Mount {
     Base,
     /// The link with the number before: what it has is still in registers.
     LinkBefore,
@@ -15,7 +15,7 @@ pub(crate) enum Mount {
 
 impl<T: Real, const J: usize> Robot<T, J> {
     #[inline(always)]
-    pub(crate) fn mount(&self, j: usize) -> Mount {
+    fn mount(&self, j: usize) -> Mount {
         let j = within::<J>(j);
         match self.links.parent[j] {
             _ if self.links.follows[j] => Mount::LinkBefore,
@@ -24,9 +24,23 @@ impl<T: Real, const J: usize> Robot<T, J> {
         }
     }
 
+    /// What the parent of a joint has. What the link before has stays in registers where it is the parent.
+    #[inline(always)]
+    pub(crate) fn of_parent<R: At<usize>>(
+        &self,
+        j: usize,
+        base: R::Out,
+        before: R::Out,
+        links: &R,
+    ) -> R::Out {
+        match self.mount(j) {
+            Mount::LinkBefore => before,
+            Mount::Base => base,
+            Mount::Link(p) => links.at(p),
+        }
+    }
+
     /// Base to tips: a quantity of each link from that of its parent.
-    ///
-    /// What the link before has stays in registers where it is the parent.
     #[inline(always)]
     pub(crate) fn base_to_tips<R: At<usize>>(
         &self,
@@ -38,12 +52,7 @@ impl<T: Real, const J: usize> Robot<T, J> {
     {
         let mut before = base;
         for j in self.joints() {
-            let parent = match self.mount(j) {
-                Mount::LinkBefore => before,
-                Mount::Base => base,
-                Mount::Link(p) => links.at(p),
-            };
-            before = from_parent(j, parent);
+            before = from_parent(j, self.of_parent(j, base, before, links));
             links.put(j, before);
         }
     }
@@ -56,12 +65,7 @@ impl<T: Real, const J: usize> Robot<T, J> {
     {
         let mut before = base;
         for j in self.joints() {
-            let parent = match self.mount(j) {
-                Mount::LinkBefore => before,
-                Mount::Base => base,
-                Mount::Link(p) => links.at(p),
-            };
-            before = parent + links.at(j);
+            before = self.of_parent(j, base, before, links) + links.at(j);
             links.put(j, before);
         }
     }

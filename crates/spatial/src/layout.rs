@@ -25,6 +25,12 @@ pub trait Layout: Copy + Debug + 'static {
     type Eight: Copy + Debug + IndexMut<usize, Output = Self::Some>;
     /// All eight the same.
     fn eight(all: Self::Some) -> Self::Eight;
+    /// As many groups as a group has places.
+    type Square: Copy + Debug + IndexMut<usize, Output = Self::Some>;
+    /// All of them the same.
+    fn square(all: Self::Some) -> Self::Square;
+    /// Rows and columns exchanged.
+    fn transpose(rows: Self::Square) -> Self::Square;
     /// Those of the first [`LINKS`](Self::LINKS) places; zeros if there are fewer.
     fn load(from: &[Self::One]) -> Self::Some;
     /// Into the first [`LINKS`](Self::LINKS) places, if there are so many.
@@ -50,6 +56,15 @@ impl<T: Real> Layout for OneByOne<T> {
     #[inline(always)]
     fn eight(all: T) -> [T; 8] {
         [all; 8]
+    }
+    type Square = [T; 1];
+    #[inline(always)]
+    fn square(all: T) -> [T; 1] {
+        [all]
+    }
+    #[inline(always)]
+    fn transpose(rows: [T; 1]) -> [T; 1] {
+        rows
     }
     #[inline(always)]
     fn load(from: &[T]) -> T {
@@ -81,6 +96,11 @@ impl<L: Layout> Group<L> {
     #[inline(always)]
     pub fn first(self) -> usize {
         self.0
+    }
+    /// The groups before this one, from one on.
+    #[inline(always)]
+    pub fn from(self, first: Self) -> impl Iterator<Item = Self> {
+        (first.0..self.0).step_by(L::LINKS).map(|i| Self(i, PhantomData))
     }
     /// The next group.
     #[inline(always)]

@@ -31,7 +31,7 @@ mod wide;
 #[cfg(feature = "counted")]
 pub use counted::Counted;
 pub use dual::Dual;
-pub use inertia::{ArticulatedInertia, InverseInertia, SpatialInertia};
+pub use inertia::{InverseInertia, SpatialInertia};
 pub use instructions::{Baseline, Instructions, Level, Work};
 pub use kernel::Kernel;
 pub use lanes::{LaneMask, Lanes};
@@ -45,7 +45,7 @@ pub use quaternion::Quat;
 pub use real::{Real, Scalar};
 pub use rotation_vector::{rotation_vector_rate, turned_by};
 pub use side_by_side::SideBySide;
-pub use turn::{Turn, Turned};
+pub use turn::Turn;
 pub use vector::{Vec3, vec3};
 #[cfg(target_arch = "x86_64")]
 pub use wide::{Avx2, Avx512};

@@ -184,19 +184,6 @@ impl<T: Real> Sym3<T> {
             zz: x + y,
         }
     }
-    /// `v vᵀ s`.
-    #[inline(always)]
-    pub fn dyad(v: Vec3<T>, s: T) -> Self {
-        let q = v * s;
-        Self {
-            xx: v.x * q.x,
-            xy: v.x * q.y,
-            xz: v.x * q.z,
-            yy: v.y * q.y,
-            yz: v.y * q.z,
-            zz: v.z * q.z,
-        }
-    }
     /// As a full matrix.
     #[inline(always)]
     pub fn to_mat3(self) -> Mat3<T> {

@@ -1,8 +1,6 @@
 //! Poses: where a frame is and how it is turned.
 
-use crate::{
-    ArticulatedInertia, Mat3, Quat, Real, SpatialForce, SpatialInertia, SpatialVelocity, Vec3,
-};
+use crate::{Mat3, Quat, Real, SpatialForce, SpatialInertia, SpatialVelocity, Vec3};
 use core::ops::Mul;
 
 /// Pose `X_PB` of a frame B measured in a frame P.
@@ -76,11 +74,6 @@ impl<T: Real> Pose<T> {
     #[inline(always)]
     pub fn inertia_to_parent(&self, M_B_B: &SpatialInertia<T>) -> SpatialInertia<T> {
         M_B_B.in_axes(&self.rotation).about(-self.translation)
-    }
-    /// The same for an articulated inertia.
-    #[inline(always)]
-    pub fn articulated_to_parent(&self, M: &ArticulatedInertia<T>) -> ArticulatedInertia<T> {
-        M.in_axes(&self.rotation).about(-self.translation)
     }
     /// Each element converted from `f64`.
     #[inline(always)]
@@ -168,9 +161,5 @@ mod tests {
         let h = X_PB().force_to_parent(&(M_B * X_PB().velocity_to_child(&twist())));
         let rigid = X_PB().inertia_to_parent(&M_B) * twist();
         close(&rigid.to_array(), &h.to_array(), 1e-13);
-        let M_A = ArticulatedInertia::from_rigid(&M_B).without(&wrench(), 0.01);
-        let h = X_PB().force_to_parent(&(M_A * X_PB().velocity_to_child(&twist())));
-        let moved = X_PB().articulated_to_parent(&M_A) * twist();
-        close(&moved.to_array(), &h.to_array(), 1e-13);
     }
 }

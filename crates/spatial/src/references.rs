@@ -51,6 +51,10 @@ pub enum KreutzDelgado1992 {}
 /// manipulator control*, ASME Journal of Dynamic Systems, Measurement, and Control 108, 1986.
 #[derive(Debug)]
 pub enum NakamuraHanafusa1986 {}
+/// O. Khatib, *A unified approach for motion and force control of robot manipulators: the operational
+/// space formulation*, IEEE Journal on Robotics and Automation 3(1), 1987.
+#[derive(Debug)]
+pub enum Khatib1987 {}
 /// B. Wie, *Space Vehicle Dynamics and Control*, 2nd ed., AIAA, 2008.
 #[derive(Debug)]
 pub enum Wie2008 {}

@@ -98,7 +98,8 @@ macro_rules! register {
     (
         $name:ident, $layout:ident, $width:literal, $about:literal, $register:ty, $mask:ty,
         $set:ident, $add:ident, $sub:ident, $mul:ident, $div:ident, $sqrt:ident, $load:ident,
-        $store:ident, ($a:ident, $b:ident, $m:ident) $lt:expr, $all:expr, $select:expr, $neg:expr
+        $store:ident, ($a:ident, $b:ident, $m:ident) $lt:expr, $all:expr, $select:expr, $neg:expr,
+        $rows:ident => $transpose:expr
     ) => {
         #[doc = $about]
         #[derive(Clone, Copy)]
@@ -212,6 +213,15 @@ macro_rules! register {
             fn eight(all: $name) -> Self::Eight {
                 [all; 8 / $width]
             }
+            type Square = [$name; $width];
+            #[inline(always)]
+            fn square(all: $name) -> Self::Square {
+                [all; $width]
+            }
+            #[inline(always)]
+            fn transpose($rows: Self::Square) -> Self::Square {
+                unsafe { $transpose }
+            }
             #[inline(always)]
             fn load(from: &[f64]) -> $name {
                 match from.first_chunk::<$width>() {
@@ -252,12 +262,27 @@ register!(
     Two, TwoAbreast, 2, "Two numbers (SSE2, which every x86-64 has).", __m128d, __m128d,
     _mm_set1_pd, _mm_add_pd, _mm_sub_pd, _mm_mul_pd, _mm_div_pd, _mm_sqrt_pd, _mm_loadu_pd,
     _mm_storeu_pd, (a, b, m) _mm_cmplt_pd(a, b), unsafe { _mm_movemask_pd(m) } == 0b11,
-    _mm_or_pd(_mm_and_pd(m, a), _mm_andnot_pd(m, b)), _mm_xor_pd(a, _mm_set1_pd(-0.0))
+    _mm_or_pd(_mm_and_pd(m, a), _mm_andnot_pd(m, b)), _mm_xor_pd(a, _mm_set1_pd(-0.0)),
+    rows => {
+        let [a, b] = rows;
+        [Two(_mm_unpacklo_pd(a.0, b.0)), Two(_mm_unpackhi_pd(a.0, b.0))]
+    }
 );
 register!(
     Four, FourAbreast, 4, "Four numbers (AVX).", __m256d, __m256d,
     _mm256_set1_pd, _mm256_add_pd, _mm256_sub_pd, _mm256_mul_pd, _mm256_div_pd, _mm256_sqrt_pd,
     _mm256_loadu_pd, _mm256_storeu_pd, (a, b, m) _mm256_cmp_pd::<_CMP_LT_OQ>(a, b),
     unsafe { _mm256_movemask_pd(m) } == 0b1111,
-    _mm256_blendv_pd(b, a, m), _mm256_xor_pd(a, _mm256_set1_pd(-0.0))
+    _mm256_blendv_pd(b, a, m), _mm256_xor_pd(a, _mm256_set1_pd(-0.0)),
+    rows => {
+        let [a, b, c, d] = rows;
+        let (ab, cd) = (_mm256_unpacklo_pd(a.0, b.0), _mm256_unpacklo_pd(c.0, d.0));
+        let (ab_odd, cd_odd) = (_mm256_unpackhi_pd(a.0, b.0), _mm256_unpackhi_pd(c.0, d.0));
+        [
+            Four(_mm256_permute2f128_pd::<0x20>(ab, cd)),
+            Four(_mm256_permute2f128_pd::<0x20>(ab_odd, cd_odd)),
+            Four(_mm256_permute2f128_pd::<0x31>(ab, cd)),
+            Four(_mm256_permute2f128_pd::<0x31>(ab_odd, cd_odd)),
+        ]
+    }
 );

@@ -21,5 +21,6 @@ mod kinematics_laws;
 mod mass_matrix_laws;
 mod momentum_laws;
 mod null_space_laws;
+mod operational_inertia_laws;
 mod reaction_laws;
 mod reduced_inertia_laws;
