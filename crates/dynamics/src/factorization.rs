@@ -17,11 +17,11 @@ const FORCE: usize = 6;
 /// `L D Lᵀ` of the arms' blocks, `L⁻¹ [M_jb | τ]`, and what that leaves of the base's block.
 ///
 /// # Source
-/// [`Featherstone2008`](wrasse_spatial::references::Featherstone2008) ch. 6.5, the sparsity that
+/// [`Featherstone2008`](wrasse_spatial::references::Featherstone2008) ch. 6.4, the zeros that
 /// branches cause; [`GolubVanLoan2013`](wrasse_spatial::references::GolubVanLoan2013) ch. 4.1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Factorization<T, const J: usize> {
-    /// Columns of L below the diagonal, and the same before they were divided by their pivots.
+    /// `factor[j][i] = L_ij` below the diagonal, and the same times the pivots, `column[j][i] = L_ij D_j`.
     factor: [[T; J]; J],
     column: [[T; J]; J],
     per_pivot: [T; J],
@@ -105,6 +105,7 @@ impl<T: Real, const J: usize> Factorization<T, J> {
         let kept = if forked { &carried } else { free };
         let (S, free_j) = (M.S.at(j), L::all(free.at(j)));
         let S = SpatialVelocity::new(L::all3(S.angular), L::all3(S.linear));
+        // Groups begin before j and end behind the arm: what they hold there is never read.
         let mut i: Group<L> = Group::of(j);
         while i.first() < arm.end {
             let mut column = S.power(&M.M_bj.at(i)) * (kept.at(i) * free_j);
@@ -125,7 +126,7 @@ impl<T: Real, const J: usize> Factorization<T, J> {
     }
 
     /// Accelerations that the force causes which was eliminated; those of joints that are held are
-    /// zero. And what holds the base (N·m, N).
+    /// zero. And what holds the base, about Bo in base axes (N·m, N).
     #[inline(always)]
     pub(crate) fn accelerations(
         &self,

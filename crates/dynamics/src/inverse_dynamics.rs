@@ -15,15 +15,15 @@ use wrasse_spatial::{
 pub struct InverseDynamics<T, const J: usize> {
     /// Wrench on the base at Bo (base axes) and joint forces, `[torque; force; τ]`.
     pub force: GeneralizedForce<T, J>,
-    /// What the parent exerts on each link through its joint, about the link's origin in base axes.
+    /// What the parent exerts on each link through its joint, about the link's origin in base axes (N·m, N).
     pub(crate) F: SpatialForce<[T; J]>,
     /// Turning rate of each link (rad/s), base axes.
     pub(crate) w: Vec3<[T; J]>,
-    /// Acceleration of each link at its origin, base axes.
+    /// Classical acceleration of each link at its origin, base axes (rad/s², m/s²).
     pub(crate) A: ClassicalAcceleration<[T; J]>,
 }
 
-/// What a base does: its twist, and how that changes.
+/// What a base does: its turning rate, and the classical acceleration of Bo, base axes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct BaseMotion<T> {
     pub(crate) w: Vec3<T>,
@@ -152,7 +152,7 @@ pub(crate) fn accelerate<L: Layout, const J: usize>(
         let turn = axis * rate;
         (w_P + turn, alpha_P + (axis * gain + w_P.cross(turn)))
     });
-    // a = a_P + α_P × p + w_P × (w_P × p + 2 s q̇) + s q̈
+    // a = a_P + α_P × p + w_P × (w_P × p), and where the joint slides + 2 w_P × s q̇ + s q̈
     for i in groups::<L, J>(robot.joint_count()) {
         let (axis, p) = (posture.axis(i), posture.p_PL_B.at(i));
         let (mut rate, mut gain) = (qdot.at(i), qddot.at(i));

@@ -50,9 +50,8 @@ fn pushed(s: &Scene, A: &Frame<f64>, B: &Frame<f64>, F_N: &SpatialForce<f64>) ->
     let mut outside = PerBody::filled(SpatialForce::zero());
     let R = X_NB.rotation;
     outside[B.body] = SpatialForce::new(R.transpose_mul(F.torque), R.transpose_mul(F.force));
-    let drives = array::from_fn(|j| match s.follows[j] {
-        true => JointDrive::Acceleration(0.0),
-        false => JointDrive::Effort(0.0),
+    let drives = array::from_fn(|j| {
+        if s.follows[j] { JointDrive::Acceleration(0.0) } else { JointDrive::Effort(0.0) }
     });
     let nudot = driven_dynamics(&k, &drives, BaseMode::Free, &outside).nudot;
     jacobian(&k, A).times(&nudot).to_array()
