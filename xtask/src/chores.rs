@@ -1,5 +1,6 @@
 //! Chores that hand their work to cargo.
 
+use crate::golden;
 use crate::tidy::repository_root;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -47,6 +48,7 @@ pub(crate) fn ci() -> Result<(), String> {
     cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], None)?;
     let deny = Some(("RUSTDOCFLAGS", "-D warnings"));
     cargo(&["doc", "--workspace", "--no-deps", "--quiet"], deny)?;
+    golden::in_repository()?;
     test(&[])
 }
 

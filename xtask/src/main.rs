@@ -1,11 +1,13 @@
 //! The project's own chores: `cargo xtask test`, `cargo xtask tidy`, `cargo xtask ci` and others.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "chores talk to their caller")]
+#![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
 mod bench;
 mod chores;
 mod counts;
 mod embedded;
 mod fuzz;
+mod golden;
 mod tidy;
 
 use std::env;
@@ -27,6 +29,10 @@ usage: cargo xtask CHORE
                 the control period on a flight processor's instruction set, in an emulator:
                 no panic, same bits as the host, instructions, stack; without the tools it is
                 skipped, with --require it fails
+  golden [FOLDER]
+                numbers from outside held against what the product computes, in every file of
+                a folder (validation/golden): deviation, tolerance, verdict of each case; exit
+                code 1 for a missed tolerance, 2 for a file that cannot be used
   fuzz [--require] [--seconds N] [TARGET]
                 arbitrary bytes into every reader, or into one, for N seconds each (15);
                 without cargo-fuzz it is skipped, with --require it fails
@@ -39,6 +45,7 @@ fn main() -> ExitCode {
         None => ("", [].as_slice()),
     };
     let outcome = match chore {
+        "golden" => return golden::golden(rest),
         "test" => chores::test(rest),
         "bench" => bench::bench(rest),
         "tidy" => tidy::report(),

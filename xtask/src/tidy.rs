@@ -58,7 +58,7 @@ fn text_of(root: &Path, path: &str) -> String {
 }
 
 /// Paths below `folder` whose name ends in `ending`, relative to the root, in order.
-fn files_below(root: &Path, folder: &str, ending: &str) -> Vec<String> {
+pub(crate) fn files_below(root: &Path, folder: &str, ending: &str) -> Vec<String> {
     let mut found = Vec::new();
     let mut folders = vec![root.join(folder)];
     while let Some(folder) = folders.pop() {
