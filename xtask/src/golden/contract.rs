@@ -9,12 +9,19 @@ use serde_json::{Value, json};
 /// Of arrays where a matrix of condition 1e5 is solved, or large terms cancel.
 const SOLVED: Bound = Bound { relative: 1e-9, absolute: 1e-12 };
 
-/// Also those of the other files of the contract.
+/// Also those of the other files of the contract; what stands under `printed` belongs to a reaction.
+/// Measured: at most a tenth of it is used up, by a centre of mass that lies in the origin but for
+/// 3e-13 m.
 pub(super) const TOLERANCES: Tolerances = Tolerances {
     sentence: "Agreement asked: 1e-11 relative to the largest element of each array, with a floor of \
                1e-12 absolute (1e-9 for forward_dynamics, reaction, attitude_torque).",
     every: Bound { relative: 1e-11, absolute: 1e-12 },
-    of: &[("forward_dynamics", SOLVED), ("reaction", SOLVED), ("attitude_torque", SOLVED)],
+    of: &[
+        ("forward_dynamics", SOLVED),
+        ("reaction", SOLVED),
+        ("printed", SOLVED),
+        ("attitude_torque", SOLVED),
+    ],
     arrays: &[],
 };
 
