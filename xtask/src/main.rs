@@ -5,6 +5,7 @@
 mod bench;
 mod chores;
 mod counts;
+mod deny;
 mod embedded;
 mod fuzz;
 mod golden;
@@ -36,7 +37,11 @@ usage: cargo xtask CHORE
   fuzz [--require] [--seconds N] [TARGET]
                 arbitrary bytes into every reader, or into one, for N seconds each (15);
                 without cargo-fuzz it is skipped, with --require it fails
-  ci            formatting, lints, documentation, then all tests: what a change must pass";
+  deny [--require]
+                licences and sources of what comes in from outside, and which crates may see
+                the truth (deny.toml); without cargo-deny it is skipped, with --require it fails
+  ci            formatting, lints, documentation, licences, golden files, then all tests: what
+                a change must pass";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = env::args().skip(1).collect();
@@ -51,6 +56,7 @@ fn main() -> ExitCode {
         "tidy" => tidy::report(),
         "counts" => counts::counts(rest),
         "embedded" => embedded::embedded(rest),
+        "deny" => deny::deny(rest),
         "fuzz" => fuzz::fuzz(rest),
         "ci" => chores::ci(),
         _ => Err(USAGE.to_owned()),
