@@ -248,7 +248,7 @@ impl<'a> Scene<'a> {
         let start = captured.state();
         let mut world = self.world(BaseAttitude::Free, &start, captured.held());
         let drives = start.q.map(|position| Drive::Follow(SetPointMotion::still(position)));
-        // In the momentum of the start, the joints stand still from now on.
+        // The momentum is that of the start, rates of the joints included; from now on they stand.
         command(&mut world, &drives, 1.0);
         world
     }
