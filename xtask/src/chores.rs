@@ -1,6 +1,7 @@
 //! Chores that hand their work to cargo.
 
 use crate::tidy::repository_root;
+use crate::{deny, golden};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
@@ -45,8 +46,10 @@ fn sorted_entries(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
 pub(crate) fn ci() -> Result<(), String> {
     cargo(&["fmt", "--all", "--check"], None)?;
     cargo(&["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"], None)?;
-    let deny = Some(("RUSTDOCFLAGS", "-D warnings"));
-    cargo(&["doc", "--workspace", "--no-deps", "--quiet"], deny)?;
+    let warnings = Some(("RUSTDOCFLAGS", "-D warnings"));
+    cargo(&["doc", "--workspace", "--no-deps", "--quiet"], warnings)?;
+    deny::deny(&[])?;
+    golden::in_repository()?;
     test(&[])
 }
 

@@ -2,7 +2,6 @@
 
 mod call_graph;
 mod comparison;
-mod elf;
 mod stack_bound;
 pub(crate) mod toolchain;
 

@@ -1,9 +1,29 @@
 //! Which function of a firmware calls which, read from its code, and how much stack each takes.
 
-use super::elf::{Elf, Function, Mark, word};
+use object::read::elf::ElfFile32;
+use object::{LittleEndian, Object, ObjectSection, ObjectSymbol, SymbolKind};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
+
+/// A function and where its code lies.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Function {
+    pub(super) name: String,
+    /// Address of its first instruction.
+    pub(super) start: u32,
+    /// Bytes.
+    size: u32,
+}
+
+/// Where code or data begins inside the code, by the assembler's marks `$t` and `$d`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Mark {
+    address: u32,
+    data: bool,
+}
+
+type Elf<'a> = ElfFile32<'a, LittleEndian>;
 
 /// What a function of the program calls, and how much stack it takes itself.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -29,10 +49,12 @@ impl CallGraph {
     pub(super) fn read(program: &Path) -> Result<Self, String> {
         let bytes = fs::read(program).map_err(|why| format!("{}: {why}", program.display()))?;
         let unreadable = "the firmware's symbols, code or stack sizes cannot be read";
-        let elf = Elf::read(&bytes).ok_or("the firmware is not an ELF file for 32 bits")?;
-        let (functions, marks) = elf.symbols().ok_or(unreadable)?;
-        let (address, code) = elf.section(".text").ok_or(unreadable)?;
-        let frames = frames(elf.section(".stack_sizes").ok_or(unreadable)?.1).ok_or(unreadable)?;
+        let elf: Elf<'_> = ElfFile32::parse(bytes.as_slice())
+            .map_err(|why| format!("the firmware is not an ELF file for 32 bits: {why}"))?;
+        let (functions, marks) = symbols(&elf).ok_or(unreadable)?;
+        let (address, code) = section(&elf, ".text").ok_or(unreadable)?;
+        let frames =
+            frames(section(&elf, ".stack_sizes").ok_or(unreadable)?.1).ok_or(unreadable)?;
         let mut nodes = BTreeMap::new();
         for function in &functions {
             let mut node = calls(function, &functions, &marks, address, code).ok_or(unreadable)?;
@@ -55,11 +77,36 @@ impl CallGraph {
     }
 }
 
+/// Address and contents of the section of this name.
+fn section<'a>(elf: &Elf<'a>, name: &str) -> Option<(u32, &'a [u8])> {
+    let section = elf.section_by_name(name)?;
+    Some((u32::try_from(section.address()).ok()?, section.data().ok()?))
+}
+
+/// All functions and all marks, by address.
+fn symbols(elf: &Elf<'_>) -> Option<(Vec<Function>, Vec<Mark>)> {
+    let (mut functions, mut marks) = (Vec::new(), Vec::new());
+    for symbol in elf.symbols() {
+        let (name, address) = (symbol.name().ok()?, u32::try_from(symbol.address()).ok()?);
+        if symbol.kind() == SymbolKind::Text {
+            // The lowest bit says that the code is Thumb.
+            let (start, size) = (address & !1, u32::try_from(symbol.size()).ok()?);
+            functions.push(Function { name: name.to_owned(), start, size });
+        } else if name.starts_with("$d") || name.starts_with("$t") {
+            marks.push(Mark { address, data: name.starts_with("$d") });
+        }
+    }
+    functions.sort_by_key(|f| f.start);
+    functions.dedup_by_key(|f| f.start);
+    marks.sort_by_key(|m| m.address);
+    Some((functions, marks))
+}
+
 /// Frame by address: words of four bytes, each followed by a number in LEB128.
 fn frames(mut section: &[u8]) -> Option<BTreeMap<u32, u32>> {
     let mut frames = BTreeMap::new();
     while !section.is_empty() {
-        let start = word(section, 0)? & !1;
+        let start = u32::from_le_bytes(*section.first_chunk()?) & !1;
         let (mut size, mut shift, mut at) = (0_u32, 0, 4);
         loop {
             let byte = *section.get(at)?;

@@ -44,9 +44,10 @@ pub(super) fn theory_pages(root: &Path) -> Vec<String> {
 
 /// A list item under "Checks" starts with the name of a test, which exists.
 pub(super) fn named_tests(root: &Path) -> Vec<String> {
-    let functions: BTreeSet<String> = files_below(root, "crates", ".rs")
+    let functions: BTreeSet<String> = ["crates", "xtask"]
         .iter()
-        .flat_map(|path| functions_of(&text_of(root, path)))
+        .flat_map(|folder| files_below(root, folder, ".rs"))
+        .flat_map(|path| functions_of(&text_of(root, &path)))
         .collect();
     let mut findings = Vec::new();
     for page in files_below(root, SOURCE, ".md") {

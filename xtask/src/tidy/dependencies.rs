@@ -19,8 +19,6 @@ pub(super) struct Crate {
     pub(super) folder: String,
     /// Short names of the workspace crates it depends on, tests left out.
     own: BTreeSet<String>,
-    /// The same, of its tests.
-    own_in_tests: BTreeSet<String>,
     /// Names of outside crates, its tests' included.
     pub(super) external: BTreeSet<String>,
     /// Names of outside crates, tests left out.
@@ -52,7 +50,6 @@ fn read_crate(root: &Path, package: &Value) -> Result<Crate, String> {
         name: below.file_name().unwrap_or_default().to_string_lossy().into_owned(),
         folder: below.to_string_lossy().replace('\\', "/"),
         own: BTreeSet::new(),
-        own_in_tests: BTreeSet::new(),
         external: BTreeSet::new(),
         external_in_product: BTreeSet::new(),
     };
@@ -61,8 +58,9 @@ fn read_crate(root: &Path, package: &Value) -> Result<Crate, String> {
         let of_tests = dependency["kind"] == "dev";
         if let Some(path) = dependency["path"].as_str() {
             let short = Path::new(path).file_name().unwrap_or_default().to_string_lossy();
-            let known = if of_tests { &mut found.own_in_tests } else { &mut found.own };
-            known.insert(short.into_owned());
+            if !of_tests {
+                found.own.insert(short.into_owned());
+            }
         } else {
             found.external.insert(name.to_owned());
             if !of_tests {
@@ -107,25 +105,6 @@ pub(super) fn arrows(root: &Path) -> Vec<String> {
     }
     let unknown = drawn.iter().filter(|(n, _)| crates.iter().all(|c| c.name != *n));
     findings.extend(unknown.map(|(n, _)| format!("{n}: drawn, but no crate")));
-    findings
-}
-
-/// `flight` and `world` do not know each other, not even in tests; results come last.
-pub(super) fn flight_apart_from_world(root: &Path) -> Vec<String> {
-    let crates = match workspace(root) {
-        Ok(crates) => crates,
-        Err(why) => return vec![why],
-    };
-    let forbidden = |from: &str, to: &str| {
-        matches!((from, to), ("flight", "world") | ("world", "flight") | (_, "cli"))
-            || (to == "record" && from != "cli")
-    };
-    let mut findings = Vec::new();
-    for c in &crates {
-        let known = c.own.iter().chain(&c.own_in_tests);
-        let bad = known.filter(|other| forbidden(&c.name, other));
-        findings.extend(bad.map(|other| format!("{} must not depend on {other}", c.name)));
-    }
     findings
 }
 
