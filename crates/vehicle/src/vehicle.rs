@@ -1,6 +1,7 @@
 //! A checked vehicle: everything that the rest of the program knows of it.
 
 use crate::equipment::Equipment;
+use crate::provenance::Provenance;
 use wrasse_document::Complaint;
 use wrasse_dynamics::{Frame, Robot};
 use wrasse_hardware::{AttitudeActuator, JointLimits, Sensors};
@@ -79,28 +80,6 @@ pub struct Posture {
     pub name: String,
     /// Joint positions in the robot's order (rad or m); joints that it does not name are at zero.
     pub q: Vec<f64>,
-}
-
-/// How sure a number is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Grade {
-    /// In a document that the source names.
-    Published,
-    /// Computed from published numbers, as the source says.
-    Derived,
-    /// Chosen here.
-    Assumed,
-}
-
-/// Where a number, or a block of them, comes from.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Provenance {
-    /// What it is about, as a path in the file: `body.bus.mass_kg`.
-    pub of: String,
-    /// How sure it is.
-    pub grade: Grade,
-    /// Document, page, or reasoning.
-    pub source: String,
 }
 
 /// A body's outline: for drawings, and for what must stay outside of it.
