@@ -3,7 +3,7 @@
 //! What counts is the mass of the units, and beside it the propellant that the task takes. Sets of the
 //! same mass are ordered by their power, then as the table has them.
 
-use crate::findings::{finding, rounded};
+use super::wording::{finding, rounded};
 use crate::judgement::Answer;
 use crate::outcome::{Finding, SetCard, SetKind, SetVerdict, TaskOutcome};
 
@@ -68,7 +68,7 @@ fn candidates<'a>(
 
 /// The lightest set that suffices for all of the tasks that ask for something; where there is none, that
 /// of each task.
-pub(crate) fn lightest(sets: &[SetCard], tasks: &[&TaskOutcome]) -> Option<Finding> {
+pub(super) fn lightest(sets: &[SetCard], tasks: &[&TaskOutcome]) -> Option<Finding> {
     if tasks.is_empty() || sets.iter().all(|set| set.kind == SetKind::Ideal) {
         return None;
     }
