@@ -1,6 +1,6 @@
 //! `wrasse check`: everything that is wrong with a file, and everything worth a second look.
 
-use crate::input::{complain, say, tell, text_of};
+use crate::input::{Failure, complain, say, text_of};
 use crate::{YES, bad};
 use clap::Args;
 use std::path::PathBuf;
@@ -23,13 +23,13 @@ pub(crate) struct Check {
 }
 
 impl Check {
-    pub(crate) fn go(&self) -> ExitCode {
+    pub(crate) fn go(&self) -> Result<ExitCode, Failure> {
         let mut all_usable = true;
         for file in &self.files {
             let text = match text_of(file) {
                 Ok(text) => text,
-                Err(sentence) => {
-                    tell(&format!("error: {sentence}"));
+                Err(failure) => {
+                    failure.tell();
                     all_usable = false;
                     continue;
                 }
@@ -43,7 +43,7 @@ impl Check {
                 None => all_usable = false,
             }
         }
-        if all_usable { YES } else { bad() }
+        Ok(if all_usable { YES } else { bad() })
     }
 }
 
