@@ -74,11 +74,11 @@ fn go(command: &Command) -> ExitCode {
         Command::Run(run) => run.go(),
         Command::Sweep(sweep) => sweep.go(),
         Command::Size(size) => size.go(),
-        Command::Check(check) => check.go(),
+        Command::Check(check) => Ok(check.go()),
         Command::Vehicles(vehicles) => vehicles.go(),
         Command::Hardware(hardware) => hardware.go(),
         Command::Eval(eval) => eval.go(),
-        Command::Schema(schema) => schema.go(),
+        Command::Schema(schema) => Ok(schema.go()),
     };
     done.unwrap_or_else(|failure| failure.tell())
 }

@@ -109,6 +109,17 @@ pub enum ShapeKind {
     Sphere(f64),
 }
 
+impl ShapeKind {
+    /// All lengths of which each must be positive (m).
+    pub(crate) fn sizes(self) -> Vec<f64> {
+        match self {
+            Self::Box(edges) => edges.to_array().to_vec(),
+            Self::Cylinder { radius, length } => vec![radius, length],
+            Self::Sphere(radius) => vec![radius],
+        }
+    }
+}
+
 impl Vehicle {
     /// The frame of this name.
     pub fn frame(&self, name: &str) -> Option<Frame<f64>> {

@@ -38,7 +38,7 @@ pub fn least_flow(
         return None;
     }
     let mut search = DutySearch::of(thrusters, p_BScm_B, torque_B, force_B, 1.0);
-    if search.wanted > 0.0 && !(search.share() > 1.0 - ROUND_OFF) {
+    if search.wanted > 0.0 && search.share() <= 1.0 - ROUND_OFF {
         return None;
     }
     search.program.freeze(SHARE);

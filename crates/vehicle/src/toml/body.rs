@@ -213,12 +213,7 @@ pub(crate) fn outline(
         reading.error(path, message, "this shape", help);
         return None;
     };
-    let sizes = match kind {
-        ShapeKind::Box(edges) => edges.to_array().to_vec(),
-        ShapeKind::Cylinder { radius, length } => vec![radius, length],
-        ShapeKind::Sphere(radius) => vec![radius],
-    };
-    if let Some(size) = sizes.iter().find(|size| **size <= 0.0) {
+    if let Some(size) = kind.sizes().iter().find(|size| **size <= 0.0) {
         let message = format!("a shape of '{}' has a size of {size} m", body.name);
         reading.error(path, message, "this shape", "sizes are positive");
     }

@@ -123,9 +123,7 @@ fn axis(reading: &mut Reading<'_>, path: &[Step<'_>], file: &JointFile) -> Vec3<
 
 /// The key that stands for the limits of a joint: its travel, if it has any.
 pub(crate) fn limits_key(limits: &LimitsFile) -> &'static str {
-    let keys = ["travel_deg", "travel_m", "rate_deg_s", "rate_m_s", "effort_nm", "effort_n"];
-    let there = given(limits);
-    keys.into_iter().find(|key| there.contains(key)).unwrap_or("kind")
+    given(limits).first().copied().unwrap_or("kind")
 }
 
 /// Keys of the limits that are given.

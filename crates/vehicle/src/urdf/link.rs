@@ -150,12 +150,7 @@ impl Reading<'_> {
 
     /// Whether a shape can be drawn: complains of negative sizes, and warns of sizes that are zero.
     fn has_extent(&mut self, at: &Range<usize>, kind: ShapeKind) -> bool {
-        let sizes = match kind {
-            ShapeKind::Box(edges) => edges.to_array().to_vec(),
-            ShapeKind::Cylinder { radius, length } => vec![radius, length],
-            ShapeKind::Sphere(radius) => vec![radius],
-        };
-        let least = sizes.into_iter().fold(f64::INFINITY, f64::min);
+        let least = kind.sizes().into_iter().fold(f64::INFINITY, f64::min);
         if least < 0.0 {
             let message = format!("a shape has a size of {least} m: sizes are positive");
             self.found.error(at, message, "this shape", "leave out the sign");
