@@ -23,6 +23,7 @@ pub struct BoundedSimplex<T, const R: usize, const C: usize> {
     place: [Place; C],
     /// Exchanges that are still allowed.
     left: usize,
+    largest_pivots: bool,
 }
 
 /// Where a variable stands.
@@ -54,7 +55,23 @@ impl<T: Scalar, const R: usize, const C: usize> BoundedSimplex<T, R, C> {
         let mut place = [Place::Zero; C];
         place[C - R..].fill(Place::Basis);
         let basis = core::array::from_fn(|r| C - R + r);
-        Self { rows, basis, upper, value: [T::zero(); C], place, left: EXCHANGES }
+        Self {
+            rows,
+            basis,
+            upper,
+            value: [T::zero(); C],
+            place,
+            left: EXCHANGES,
+            largest_pivots: false,
+        }
+    }
+    /// Of several variables that end a step at once, the one with the largest pivot leaves, not the
+    /// least index (until half of the exchanges). An equation whose factors are a billionth of the
+    /// others' is then kept to round-off, and not to a hundred-thousandth.
+    #[must_use]
+    pub fn with_largest_pivots(mut self) -> Self {
+        self.largest_pivots = true;
+        self
     }
     /// Value of a variable.
     pub fn value(&self, j: usize) -> T {
@@ -147,10 +164,11 @@ impl<T: Scalar, const R: usize, const C: usize> BoundedSimplex<T, R, C> {
             }
         }
     }
-    /// How far a variable can move, and what stops it: the least index among those that do.
+    /// How far a variable can move, and what stops it: among those that do, the least index, or the
+    /// largest pivot.
     fn longest_step(&self, j: usize, towards: T) -> (T, Stop) {
         let (mut step, mut stop) = (self.upper[j], Stop::Itself);
-        let mut index = j;
+        let (mut index, mut pivot) = (j, T::zero());
         for r in 0..R {
             let (slope, b) = (towards * self.rows[r][j], self.basis[r]);
             if slope.abs() <= nothing() {
@@ -159,8 +177,11 @@ impl<T: Scalar, const R: usize, const C: usize> BoundedSimplex<T, R, C> {
             let at_upper = slope < T::zero();
             let room = if at_upper { self.upper[b] - self.value[b] } else { self.value[b] };
             let length = (room / slope.abs()).max(T::zero());
-            if length < step || (length == step && b < index) {
+            let by_pivot = self.largest_pivots && self.left >= EXCHANGES / 2;
+            let first = if by_pivot { slope.abs() > pivot } else { b < index };
+            if length < step || (length == step && first) {
                 (step, stop, index) = (length, Stop::Row { row: r, at_upper }, b);
+                pivot = slope.abs();
             }
         }
         (step, stop)

@@ -157,7 +157,7 @@ impl Solid {
         let mut upper = [0.0; VARIABLES];
         upper[..columns.len()].fill(1.0);
         upper[COLUMNS] = 2.0 * COLUMNS as f64;
-        let mut program = BoundedSimplex::new(rows, upper);
+        let mut program = BoundedSimplex::new(rows, upper).with_largest_pivots();
         let mut cost = [0.0; VARIABLES];
         cost[COLUMNS] = -1.0;
         program.minimise(&cost).then(|| program.value(COLUMNS) * largest)

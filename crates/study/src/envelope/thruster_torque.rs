@@ -101,7 +101,7 @@ impl DutySearch {
             row[SHARE] /= if wanted > 0.0 { wanted } else { 1.0 };
             row[SHARE + 1 + k] = 1.0;
         }
-        let mut program = BoundedSimplex::new(rows, upper);
+        let mut program = BoundedSimplex::new(rows, upper).with_largest_pivots();
         let mut cost = [0.0; VARIABLES];
         cost[SHARE] = -1.0;
         program.minimise(&cost);
@@ -192,5 +192,30 @@ mod tests {
         let all = couples(22.0);
         let off = thruster_torque(&all, vec3(0.3, 0.1, -0.2), vec3(0.0, 0.0, 1.0));
         assert!((off.couple - 44.0).abs() < 1e-12, "{off:?}");
+    }
+
+    /// Torque that is a billionth of the force is given too. The expected flow is that of exact rational
+    /// arithmetic; without the largest pivots this was off by 4.5e-6 of it.
+    #[test]
+    fn the_least_flow_does_not_hang_on_tiny_components() {
+        let mut all = vec![];
+        for corner in 0..8 {
+            let side = [1, 2, 4].map(|bit| if corner & bit == 0 { 1.0 } else { -1.0 });
+            for axis in 0..3 {
+                let mut direction = [0.0; 3];
+                direction[axis] = -side[axis];
+                all.push(Thruster {
+                    position_B: vec3(0.9 * side[0], 0.8 * side[1], 0.8 * side[2]),
+                    direction_B: Vec3::from_array(direction),
+                    force: 200.0,
+                    specific_impulse: 289.0,
+                    ..Default::default()
+                });
+            }
+        }
+        let (torque, force) = (vec3(-9.3e-9, 4.9e-9, -5.2e-9), vec3(103.6, 144.8, 45.3));
+        let flow = least_flow(&all, vec3(0.1, -0.05, 0.02), torque, Some(force)).unwrap();
+        // Measured 1.1e-16.
+        assert!((flow / 0.103_629_983_305_057_97 - 1.0).abs() < 1e-14, "{flow}");
     }
 }
