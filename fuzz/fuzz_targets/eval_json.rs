@@ -2,31 +2,22 @@
 #![no_main]
 #![allow(non_snake_case, dead_code, unused_imports)]
 
-#[path = "../../crates/cli/src/eval.rs"]
-mod eval;
 #[path = "../../crates/cli/src/eval_answer.rs"]
 mod eval_answer;
-#[path = "../../crates/cli/src/input.rs"]
-mod input;
+#[path = "../../crates/cli/src/eval_question.rs"]
+mod eval_question;
 
 use libfuzzer_sys::fuzz_target;
 use std::path::Path;
-use std::process::ExitCode;
 use std::sync::LazyLock;
 use wrasse_document::render;
 use wrasse_vehicle::{Vehicle, find_vehicle};
-
-// What the module knows of its binary.
-const YES: ExitCode = ExitCode::SUCCESS;
-fn bad() -> ExitCode {
-    ExitCode::from(2)
-}
 
 static VEHICLE: LazyLock<Vehicle> =
     LazyLock::new(|| find_vehicle("atlas-class", None).expect("it is in the catalogue"));
 
 fuzz_target!(|text: &str| {
-    match eval::questions(Path::new("fuzz.json"), text.to_owned(), &VEHICLE) {
+    match eval_question::questions(Path::new("fuzz.json"), text.to_owned(), &VEHICLE) {
         Ok((frame, questions)) => {
             eval_answer::answer(&VEHICLE, &frame, &questions);
         }

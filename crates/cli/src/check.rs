@@ -1,6 +1,6 @@
 //! `wrasse check`: everything that is wrong with a file, and everything worth a second look.
 
-use crate::input::{complain, say, tell, text_of};
+use crate::input::{complain, say, text_of};
 use crate::{YES, bad};
 use clap::Args;
 use std::path::PathBuf;
@@ -28,8 +28,8 @@ impl Check {
         for file in &self.files {
             let text = match text_of(file) {
                 Ok(text) => text,
-                Err(sentence) => {
-                    tell(&format!("error: {sentence}"));
+                Err(failure) => {
+                    failure.tell();
                     all_usable = false;
                     continue;
                 }

@@ -1,6 +1,6 @@
 //! The answer of `wrasse eval`: quantities by name, generalized vectors ordered `[ω_B; v_B; q̇]`.
 
-use crate::eval::Question;
+use crate::eval_question::Question;
 use serde_json::{Value, json};
 use wrasse_dynamics::{
     BodyId, Frame, GeneralizedForce, GeneralizedVelocity, Kinematics, Outside,

@@ -1,7 +1,7 @@
 //! `wrasse hardware`: the catalogue of wheels, gyros, thrusters and sensors.
 
-use crate::input::{say, tell};
-use crate::{YES, bad};
+use crate::YES;
+use crate::input::{Failure, say};
 use clap::Args;
 use std::process::ExitCode;
 use wrasse_document::closest;
@@ -26,18 +26,16 @@ pub(crate) struct Hardware {
 }
 
 impl Hardware {
-    pub(crate) fn go(&self) -> ExitCode {
+    pub(crate) fn go(&self) -> Result<ExitCode, Failure> {
         let all = hardware();
-        let Some(name) = &self.name else {
-            list(&all);
-            return YES;
-        };
-        let Some(entry) = all.iter().find(|entry| entry.name == *name) else {
-            tell(&no_such(name, &all));
-            return bad();
-        };
-        show(entry);
-        YES
+        match &self.name {
+            None => list(&all),
+            Some(name) => match all.iter().find(|entry| entry.name == *name) {
+                Some(entry) => show(entry),
+                None => return Err(Failure::Sentence(no_such(name, &all))),
+            },
+        }
+        Ok(YES)
     }
 }
 
@@ -52,7 +50,7 @@ fn no_such(name: &str, all: &[HardwareEntry]) -> String {
         }
         None => format!("did you mean one of {}?", begun.join(", ")),
     };
-    format!("error: no hardware is called {name:?}: {help}")
+    format!("no hardware is called {name:?}: {help}")
 }
 
 /// One table for each kind; what is not published at first hand is marked.

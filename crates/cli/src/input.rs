@@ -1,26 +1,55 @@
 //! Files in, complaints and answers out. No character of a file is obeyed by the terminal.
 
+use crate::bad;
 use serde_json::Value;
 use std::io::{IsTerminal, Write};
 use std::path::Path;
+use std::process::ExitCode;
 use wrasse_document::{
     Complaint, MOST_BYTES, Unreadable, read_text, render, visible_json, visible_lines,
 };
 
-/// The text of a vehicle or mission file; a plain sentence if it cannot be read.
-pub(crate) fn text_of(path: &Path) -> Result<String, String> {
+/// Why a command cannot go on.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// A plain sentence, perhaps with a remedy on a line below.
+    Sentence(String),
+    /// What is wrong with a file.
+    Complaints(Vec<Complaint>),
+}
+
+impl Failure {
+    /// Print it. The exit code: bad input, or a breakdown.
+    pub(crate) fn tell(&self) -> ExitCode {
+        match self {
+            Self::Sentence(sentence) => tell(&format!("error: {sentence}")),
+            Self::Complaints(complaints) => complain(complaints),
+        }
+        bad()
+    }
+}
+
+impl From<Vec<Complaint>> for Failure {
+    fn from(complaints: Vec<Complaint>) -> Self {
+        Self::Complaints(complaints)
+    }
+}
+
+/// The text of a vehicle or mission file.
+pub(crate) fn text_of(path: &Path) -> Result<String, Failure> {
     text_up_to(path, MOST_BYTES)
 }
 
 /// The same, of a file of at most so many bytes.
-pub(crate) fn text_up_to(path: &Path, most: u64) -> Result<String, String> {
-    read_text(path, most).map_err(|why| match why {
+pub(crate) fn text_up_to(path: &Path, most: u64) -> Result<String, Failure> {
+    let sentence = |why| match why {
         Unreadable::System(error) if error.kind() == std::io::ErrorKind::NotFound => {
             format!("there is no file {}", path.display())
         }
         Unreadable::NotText { .. } => format!("{} is not UTF-8 text", path.display()),
         why => format!("{} cannot be read: {why}", path.display()),
-    })
+    };
+    read_text(path, most).map_err(|why| Failure::Sentence(sentence(why)))
 }
 
 /// Print complaints to standard error, in colour on a terminal.
@@ -35,13 +64,13 @@ pub(crate) fn tell(text: &str) {
     tell_as_it_is(&visible_lines(text));
 }
 
-/// A reader who has gone away is no error of ours.
+/// A closed pipe is not an error.
 fn tell_as_it_is(text: &str) {
     let _ = writeln!(std::io::stderr(), "{}", text.trim_end());
 }
 
-/// Print to standard output. A reader who has gone away is no error of ours; a full disk ends the
-/// program, for an answer that is cut short must not pass for a whole one.
+/// Print to standard output. A closed pipe is not an error; a full disk ends the program, for an answer
+/// that is cut short must not pass for a whole one.
 pub(crate) fn say(text: &str) {
     say_as_it_is(&visible_lines(text));
 }

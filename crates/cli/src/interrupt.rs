@@ -15,3 +15,8 @@ pub(crate) fn at_interrupt(kept: impl Fn() -> String + Send + 'static) {
         std::process::exit(INTERRUPTED);
     });
 }
+
+/// Of a command that writes its results at its end.
+pub(crate) fn nothing_kept() -> String {
+    "nothing is kept; former results are as they were".into()
+}

@@ -7,10 +7,12 @@
 mod check;
 mod eval;
 mod eval_answer;
+mod eval_question;
 mod hardware;
 mod input;
 mod interrupt;
 mod progress;
+mod results;
 mod run;
 mod schema;
 mod size;
@@ -18,6 +20,7 @@ mod sweep;
 mod vehicles;
 
 use clap::{Parser, Subcommand};
+use std::num::NonZeroUsize;
 use std::process::ExitCode;
 
 /// Rehearse on-orbit servicing: free-flying spacecraft with arms.
@@ -67,22 +70,23 @@ fn main() -> ExitCode {
 }
 
 fn go(command: &Command) -> ExitCode {
-    match command {
+    let done = match command {
         Command::Run(run) => run.go(),
         Command::Sweep(sweep) => sweep.go(),
         Command::Size(size) => size.go(),
-        Command::Check(check) => check.go(),
+        Command::Check(check) => Ok(check.go()),
         Command::Vehicles(vehicles) => vehicles.go(),
         Command::Hardware(hardware) => hardware.go(),
         Command::Eval(eval) => eval.go(),
-        Command::Schema(schema) => schema.go(),
-    }
+        Command::Schema(schema) => Ok(schema.go()),
+    };
+    done.unwrap_or_else(|failure| failure.tell())
 }
 
 /// All requirements hold.
 pub(crate) const YES: ExitCode = ExitCode::SUCCESS;
 
-/// The answer is no: a requirement failed, a way cannot be gone.
+/// The answer is no: a requirement failed, a path is infeasible.
 pub(crate) fn no() -> ExitCode {
     ExitCode::from(1)
 }
@@ -90,4 +94,10 @@ pub(crate) fn no() -> ExitCode {
 /// Bad input, or a breakdown.
 pub(crate) fn bad() -> ExitCode {
     ExitCode::from(2)
+}
+
+/// Flights at a time: as many as were asked for, or as the machine has processors.
+pub(crate) fn threads(asked: Option<NonZeroUsize>) -> usize {
+    let processors = || std::thread::available_parallelism().ok();
+    asked.or_else(processors).map_or(1, NonZeroUsize::get)
 }

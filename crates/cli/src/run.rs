@@ -1,14 +1,15 @@
 //! `wrasse run`: a mission, from its file to its verdict.
 
-use crate::input::{complain, say, say_json, tell, text_of};
-use crate::interrupt::at_interrupt;
+use crate::input::{Failure, complain, text_of};
+use crate::interrupt::{at_interrupt, nothing_kept};
 use crate::progress::Bar;
+use crate::results::{hand_over, results_folder};
 use crate::{YES, bad, no};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use wrasse_mission::{End, Outcome, RunOptions, read_mission, run};
-use wrasse_record::{prepare_place, summary_json, verdict_table, write_results};
+use wrasse_mission::{End, Mission, RunOptions, read_mission, run};
+use wrasse_record::{summary_json, verdict_table, write_results};
 
 /// Fly a mission, judge its requirements, write the report.
 ///
@@ -38,60 +39,33 @@ pub(crate) struct Run {
 }
 
 impl Run {
-    pub(crate) fn go(&self) -> ExitCode {
-        let text = match text_of(&self.mission) {
-            Ok(text) => text,
-            Err(sentence) => {
-                tell(&format!("error: {sentence}"));
-                return bad();
-            }
-        };
-        let mut mission = match read_mission(&self.mission, text) {
-            Ok(mission) => mission,
-            Err(complaints) => {
-                complain(&complaints);
-                return bad();
-            }
-        };
-        if !mission.remarks.is_empty() {
-            complain(&mission.remarks);
-        }
-        let mut usual = PathBuf::from("out").join(&mission.name);
+    pub(crate) fn go(&self) -> Result<ExitCode, Failure> {
+        let mut mission = mission_of(&self.mission)?;
+        let mut name = mission.name.clone();
         if let Some(sample) = self.sample {
-            usual = PathBuf::from("out").join(format!("{}-sample-{sample}", mission.name));
+            name = format!("{name}-sample-{sample}");
             mission = mission.sampled(self.seed.unwrap_or(mission.seed), sample);
         }
-        let folder = self.out.clone().unwrap_or(usual);
-        if let Err(error) = prepare_place(&folder) {
-            tell(&format!("error: the results cannot be written: {error}"));
-            return bad();
-        }
-        at_interrupt(|| "nothing is kept; former results are as they were".into());
+        let folder = results_folder(self.out.as_deref(), &name)?;
+        at_interrupt(nothing_kept);
         let bar = Bar::new();
         let options = RunOptions { error_estimate: self.error_estimate };
         let outcome = run(&mission, options, &mut |progress| bar.show(progress));
         bar.done();
-        self.hand_over(&outcome, &folder)
-    }
-
-    /// Write the results, print what was asked for, say how it went.
-    fn hand_over(&self, outcome: &Outcome, folder: &Path) -> ExitCode {
-        let written = match write_results(outcome, folder) {
-            Ok(written) => written,
-            Err(error) => {
-                tell(&format!("error: the results cannot be written: {error}"));
-                return bad();
-            }
-        };
-        if self.json {
-            say_json(&summary_json(outcome));
-        } else {
-            say(&verdict_table(outcome));
-            say(&format!("report: {}", written.report.display()));
-        }
+        let report = write_results(&outcome, &folder).map(|written| written.report);
+        hand_over(report, self.json, || summary_json(&outcome), || verdict_table(&outcome))?;
         if outcome.cases.iter().any(|case| matches!(case.end, End::Breakdown { .. })) {
-            return bad();
+            return Ok(bad());
         }
-        if outcome.cases.iter().all(|case| case.passed) { YES } else { no() }
+        Ok(if outcome.cases.iter().all(|case| case.passed) { YES } else { no() })
     }
+}
+
+/// The mission of a file, after its remarks.
+pub(crate) fn mission_of(path: &Path) -> Result<Mission, Failure> {
+    let mission = read_mission(path, text_of(path)?)?;
+    if !mission.remarks.is_empty() {
+        complain(&mission.remarks);
+    }
+    Ok(mission)
 }

@@ -1,15 +1,16 @@
 //! `wrasse size`: what a task asks of the base, and which actuators can give it.
 
-use crate::input::{complain, say, say_json, tell, text_of};
-use crate::interrupt::at_interrupt;
+use crate::input::{Failure, text_of};
+use crate::interrupt::{at_interrupt, nothing_kept};
 use crate::progress::Bar;
-use crate::{YES, bad};
+use crate::results::{hand_over, results_folder};
+use crate::{YES, bad, threads};
 use clap::{Args, ValueEnum};
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
-use wrasse_record::{prepare_place, study_json, study_table, write_study};
-use wrasse_study::{Catalogue, StudyOutcome, read_study_with, size};
+use wrasse_record::{study_json, study_table, write_study};
+use wrasse_study::{Catalogue, read_study_with, size};
 
 /// Size the actuators of a base: what a task asks, which sets can give it, how much slower it must be.
 ///
@@ -62,57 +63,22 @@ impl From<Kind> for Catalogue {
 }
 
 impl Size {
-    pub(crate) fn go(&self) -> ExitCode {
-        let text = match text_of(&self.study) {
-            Ok(text) => text,
-            Err(sentence) => {
-                tell(&format!("error: {sentence}"));
-                return bad();
-            }
-        };
+    pub(crate) fn go(&self) -> Result<ExitCode, Failure> {
         let mut catalogue: Vec<Catalogue> = vec![];
         for kind in self.catalogue.iter().map(|kind| Catalogue::from(*kind)) {
             if !catalogue.contains(&kind) {
                 catalogue.push(kind);
             }
         }
-        let study = match read_study_with(&self.study, &text, &catalogue) {
-            Ok(study) => study,
-            Err(complaints) => {
-                complain(&complaints);
-                return bad();
-            }
-        };
+        let study = read_study_with(&self.study, &text_of(&self.study)?, &catalogue)?;
         // The report of a run of the same file stays what it is.
-        let usual = || PathBuf::from("out").join(format!("{}-size", study.name()));
-        let folder = self.out.clone().unwrap_or_else(usual);
-        if let Err(error) = prepare_place(&folder) {
-            tell(&format!("error: the results cannot be written: {error}"));
-            return bad();
-        }
-        at_interrupt(|| "nothing is kept; former results are as they were".into());
-        let threads = self.threads.or_else(|| std::thread::available_parallelism().ok());
+        let folder = results_folder(self.out.as_deref(), &format!("{}-size", study.name()))?;
+        at_interrupt(nothing_kept);
         let bar = Bar::new();
-        let outcome = size(&study, threads.map_or(1, NonZeroUsize::get), &mut |p| bar.show(p));
+        let outcome = size(&study, threads(self.threads), &mut |p| bar.show(p));
         bar.done();
-        self.hand_over(&outcome, &folder)
-    }
-
-    /// Write the results, print what was asked for, say how it went.
-    fn hand_over(&self, outcome: &StudyOutcome, folder: &Path) -> ExitCode {
-        let written = match write_study(outcome, folder) {
-            Ok(written) => written,
-            Err(error) => {
-                tell(&format!("error: the results cannot be written: {error}"));
-                return bad();
-            }
-        };
-        if self.json {
-            say_json(&study_json(outcome));
-        } else {
-            say(&study_table(outcome));
-            say(&format!("report: {}", written.report.display()));
-        }
-        if outcome.closes { YES } else { bad() }
+        let report = write_study(&outcome, &folder).map(|written| written.report);
+        hand_over(report, self.json, || study_json(&outcome), || study_table(&outcome))?;
+        Ok(if outcome.closes { YES } else { bad() })
     }
 }

@@ -1,17 +1,18 @@
 //! `wrasse sweep`: many samples of a mission of which not everything is known exactly.
 
-use crate::input::{complain, say, say_json, tell, text_of};
+use crate::input::Failure;
 use crate::interrupt::at_interrupt;
 use crate::progress::Bar;
-use crate::{YES, bad, no};
+use crate::results::{hand_over, results_folder};
+use crate::run::mission_of;
+use crate::{YES, no, threads};
 use clap::{Args, value_parser};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
-use wrasse_mission::{Mission, read_mission};
-use wrasse_record::{prepare_place, sweep_json, sweep_table, write_sweep};
+use wrasse_record::{sweep_json, sweep_table, write_sweep};
 use wrasse_sweep::{OwnedFolder, SweepError, SweepOutcome, sweep};
 
 /// Fly many samples of a mission: how often it succeeds, how its values spread, which samples are worst.
@@ -58,82 +59,51 @@ fn share(text: &str) -> Result<f64, String> {
 }
 
 impl Sweep {
-    pub(crate) fn go(&self) -> ExitCode {
-        let text = match text_of(&self.mission) {
-            Ok(text) => text,
-            Err(sentence) => {
-                tell(&format!("error: {sentence}"));
-                return bad();
-            }
-        };
-        let mission = match read_mission(&self.mission, text) {
-            Ok(mission) => mission,
-            Err(complaints) => {
-                complain(&complaints);
-                return bad();
-            }
-        };
-        if !mission.remarks.is_empty() {
-            complain(&mission.remarks);
-        }
-        let usual = || PathBuf::from("out").join(format!("{}-sweep", mission.name));
-        let folder = self.out.clone().unwrap_or_else(usual);
-        if let Err(error) = prepare_place(&folder) {
-            tell(&format!("error: the results cannot be written: {error}"));
-            return bad();
-        }
-        match self.fly(&mission, &folder) {
-            Ok(code) => code,
-            Err(error) => {
-                tell(&format!("error: {error}"));
-                bad()
-            }
-        }
-    }
-
-    fn fly(&self, mission: &Mission, folder: &Path) -> Result<ExitCode, SweepError> {
-        let threads = self.threads.or_else(|| std::thread::available_parallelism().ok());
+    pub(crate) fn go(&self) -> Result<ExitCode, Failure> {
+        let mission = mission_of(&self.mission)?;
+        let folder = results_folder(self.out.as_deref(), &format!("{}-sweep", mission.name))?;
         let asked = wrasse_sweep::Sweep {
-            mission,
+            mission: &mission,
             samples: self.samples,
             seed: self.seed.unwrap_or(mission.seed),
-            threads: threads.map_or(1, NonZeroUsize::get),
+            threads: threads(self.threads),
         };
         asked.check()?;
         let parts = folder.join("parts");
         // It stays owned until the results are written: nobody else's come between.
         let owned = OwnedFolder::take(&parts)?;
-        let bar = Bar::new();
-        let kept = Arc::new(AtomicU64::new(0));
-        let (counted, place) = (Arc::clone(&kept), parts.display().to_string());
-        at_interrupt(move || {
-            let flights = counted.load(Ordering::Relaxed);
-            format!("{flights} flights are kept in {place}; the same command goes on from there")
-        });
-        let outcome = sweep(&asked, &owned, &mut |done, of| {
-            kept.store(done, Ordering::Relaxed);
-            bar.count(done, of);
-        });
-        bar.done();
-        Ok(self.hand_over(&outcome?, folder))
-    }
-
-    /// Write the results, print what was asked for, say how it went.
-    fn hand_over(&self, outcome: &SweepOutcome, folder: &Path) -> ExitCode {
-        let written = match write_sweep(outcome, folder) {
-            Ok(written) => written,
-            Err(error) => {
-                tell(&format!("error: the results cannot be written: {error}"));
-                return bad();
-            }
-        };
-        if self.json {
-            say_json(&sweep_json(outcome));
-        } else {
-            say(&sweep_table(outcome));
-            say(&format!("report: {}", written.report.display()));
-        }
+        let outcome = fly(&asked, &owned, &parts)?;
+        let report = write_sweep(&outcome, &folder).map(|written| written.report);
+        hand_over(report, self.json, || sweep_json(&outcome), || sweep_table(&outcome))?;
         let wanted = self.pass_rate.unwrap_or(0.0);
-        if outcome.cases.iter().all(|case| case.passed.sure >= wanted) { YES } else { no() }
+        let reached = outcome.cases.iter().all(|case| case.passed.sure >= wanted);
+        Ok(if reached { YES } else { no() })
+    }
+}
+
+/// The flights, with a bar, and a word at Ctrl-C on how many are kept.
+fn fly(
+    asked: &wrasse_sweep::Sweep<'_>,
+    owned: &OwnedFolder,
+    parts: &Path,
+) -> Result<SweepOutcome, SweepError> {
+    let bar = Bar::new();
+    let kept = Arc::new(AtomicU64::new(0));
+    let (counted, place) = (Arc::clone(&kept), parts.display().to_string());
+    at_interrupt(move || {
+        let flights = counted.load(Ordering::Relaxed);
+        format!("{flights} flights are kept in {place}; the same command goes on from there")
+    });
+    let outcome = sweep(asked, owned, &mut |done, of| {
+        kept.store(done, Ordering::Relaxed);
+        bar.count(done, of);
+    });
+    bar.done();
+    outcome
+}
+
+impl From<SweepError> for Failure {
+    fn from(error: SweepError) -> Self {
+        Self::Sentence(error.to_string())
     }
 }

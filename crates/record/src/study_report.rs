@@ -1,6 +1,6 @@
 //! The report of a study: one page that opens without a network and needs no script.
 
-use wrasse_study::{Answer, Both, SetCard, SetKind, SetVerdict, StudyOutcome, TaskOutcome};
+use wrasse_study::{Answer, Bounds, SetCard, SetKind, SetVerdict, StudyOutcome, TaskOutcome};
 
 use crate::markup::{escaped, figure, table, words};
 use crate::numbers::{FINEST, beside_largest, counted, error, pace, rounded as short};
@@ -149,19 +149,19 @@ fn demands(tasks: &[TaskOutcome]) -> String {
 }
 
 /// A figure with plain steering, and in brackets with the best if that is another.
-fn both(value: Both<Option<f64>>, none: &str) -> String {
+fn both(value: Bounds<Option<f64>>, none: &str) -> String {
     both_told(value, none, short)
 }
 
-fn both_told(value: Both<Option<f64>>, none: &str, told: fn(f64) -> String) -> String {
+fn both_told(value: Bounds<Option<f64>>, none: &str, told: fn(f64) -> String) -> String {
     let [plain, best] = [value.plain, value.best].map(|v| v.map_or(none.to_owned(), told));
     figure(&if plain == best { plain } else { format!("{plain} ({best})") })
 }
 
 fn sets(sets: &[SetCard]) -> String {
-    let reach = |reach: &Option<Both<f64>>| match reach {
+    let reach = |reach: &Option<Bounds<f64>>| match reach {
         None => figure("any"),
-        Some(both_of) => both(Both { plain: Some(both_of.plain), best: Some(both_of.best) }, ""),
+        Some(both_of) => both(Bounds { plain: Some(both_of.plain), best: Some(both_of.best) }, ""),
     };
     let number = |value: Option<f64>| figure(&value.map_or("\u{2013}".to_owned(), short));
     let rows = sets.iter().map(|set| {

@@ -5,7 +5,7 @@ use wrasse_hardware::ControlMomentGyro;
 use wrasse_record::{study_html, study_json, study_table, write_study};
 use wrasse_spatial::{Vec3, vec3};
 use wrasse_study::{
-    Answer, Both, Demand, Finding, Flown, HandCheck, SetCard, SetKind, SetVerdict, StudyOutcome,
+    Answer, Bounds, Demand, Finding, Flown, HandCheck, SetCard, SetKind, SetVerdict, StudyOutcome,
     TaskOutcome, singular_surfaces,
 };
 
@@ -20,12 +20,12 @@ fn gyros() -> Vec<ControlMomentGyro<f64>> {
     sides.into_iter().map(gyro).collect()
 }
 
-fn some(plain: f64, best: f64) -> Both<Option<f64>> {
-    Both { plain: Some(plain), best: Some(best) }
+fn some(plain: f64, best: f64) -> Bounds<Option<f64>> {
+    Bounds { plain: Some(plain), best: Some(best) }
 }
 
 fn cards() -> Vec<SetCard> {
-    let card = |name: &str, kind, reach: Option<Both<f64>>| SetCard {
+    let card = |name: &str, kind, reach: Option<Bounds<f64>>| SetCard {
         name: name.into(),
         kind,
         mass_kg: Some(48.0),
@@ -39,11 +39,11 @@ fn cards() -> Vec<SetCard> {
         provenance: vec![],
         surfaces: vec![],
     };
-    let wheels = Both { plain: 0.3, best: 0.3 };
+    let wheels = Bounds { plain: 0.3, best: 0.3 };
     let mut all = vec![
         card("ideal", SetKind::Ideal, None),
         card("4 <wheels>", SetKind::Wheels, Some(wheels)),
-        card("4 gyros 75 N·m·s", SetKind::Gyros, Some(Both { plain: 86.6, best: 236.6 })),
+        card("4 gyros 75 N·m·s", SetKind::Gyros, Some(Bounds { plain: 86.6, best: 236.6 })),
     ];
     all[2].surfaces = singular_surfaces(&gyros(), 6);
     all
@@ -59,7 +59,7 @@ fn verdict(set: &str, torque: Answer, momentum: Answer) -> SetVerdict {
         torque_load: some(1.1, 0.4),
         torque_nm: some(84.0, 230.0),
         momentum_nms: some(90.0, 237.0),
-        saturates_s: Both { plain: Some(0.5), best: None },
+        saturates_s: Bounds { plain: Some(0.5), best: None },
         slower: some(4.05, 1.0),
         fuel_kg: None,
         fuel_in_place_kg: None,
@@ -70,7 +70,7 @@ fn verdict(set: &str, torque: Answer, momentum: Answer) -> SetVerdict {
 /// A push of `force` (N) at 1.75 m that lasts.
 fn task(name: &str, force: f64) -> TaskOutcome {
     let mut ideal = verdict("ideal", Answer::Yes, Answer::Yes);
-    ideal.torque_nm = Both { plain: None, best: None };
+    ideal.torque_nm = Bounds { plain: None, best: None };
     ideal.momentum_nms = ideal.torque_nm;
     let mut gyros = verdict("4 gyros 75 N·m·s", Answer::Yes, Answer::WithSteering);
     gyros.saturates_s = some(0.5, 237.0 / (1.75 * force));

@@ -1,5 +1,6 @@
 //! What a set of actuators can hold and give.
 
+use crate::bounds::Bounds;
 use crate::envelope::{Piece, Solid, steering_reach, thruster_torque};
 use wrasse_hardware::{ControlMomentGyro, GYROS, Thruster};
 use wrasse_spatial::Vec3;
@@ -28,16 +29,6 @@ pub struct Capability {
     pub p_BScm_B: Vec3<f64>,
     /// Propellant at the start (kg); none if the file has no tank.
     pub propellant: Option<f64>,
-}
-
-/// How far something reaches: with steering by the pseudo-inverse from the angles at the start, and at
-/// most, with steering that avoids or escapes singularities. The two differ for gyros only.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reach {
-    /// With plain steering.
-    pub plain: f64,
-    /// At most.
-    pub most: f64,
 }
 
 impl Capability {
@@ -90,12 +81,12 @@ impl Capability {
     }
     /// Largest torque along the unit vector `d` with the gimbals at the start, and with the gimbals at
     /// their best (N·m). Thrusters give couples if they can.
-    pub fn torque_along(&self, d: Vec3<f64>) -> Reach {
+    pub fn torque_along(&self, d: Vec3<f64>) -> Bounds<f64> {
         let plain = self.torque_at(&self.gimbal_angle, d);
         if self.ideal {
-            return Reach { plain, most: f64::INFINITY };
+            return Bounds { plain, best: f64::INFINITY };
         }
-        Reach { plain, most: self.torque.radius(d) + self.couple(d) }
+        Bounds { plain, best: self.torque.radius(d) + self.couple(d) }
     }
     /// Largest torque along the unit vector `d` at gimbal angles (N·m).
     pub fn torque_at(&self, angles: &[f64; GYROS], d: Vec3<f64>) -> f64 {
@@ -110,16 +101,16 @@ impl Capability {
     }
     /// Most momentum along the unit vector `d` (N·m·s): with plain steering from the start, and up to
     /// the surface.
-    pub fn momentum_along(&self, d: Vec3<f64>) -> Reach {
+    pub fn momentum_along(&self, d: Vec3<f64>) -> Bounds<f64> {
         if self.is_unbounded() {
-            return Reach { plain: f64::INFINITY, most: f64::INFINITY };
+            return Bounds::equal(f64::INFINITY);
         }
-        let most = self.momentum.radius(d);
+        let best = self.momentum.radius(d);
         if self.gyros.is_empty() {
-            return Reach { plain: most, most };
+            return Bounds::equal(best);
         }
         let plain = steering_reach(&self.gyros, &self.gimbal_angle, d).momentum;
-        Reach { plain: (plain + self.wheel_momentum.radius(d)).min(most), most }
+        Bounds { plain: (plain + self.wheel_momentum.radius(d)).min(best), best }
     }
     /// Largest torque of the thrusters: a couple, or with the force that comes of it if the set can make
     /// no couple (N·m).
@@ -160,10 +151,10 @@ mod tests {
             ..Default::default()
         }]);
         equipment.wheel_speed[0] = 200.0;
-        let able = Capability::of(&equipment, Vec3::zero());
-        let [on, back] = [X, -X].map(|d| able.momentum_along(d).most);
+        let capability = Capability::of(&equipment, Vec3::zero());
+        let [on, back] = [X, -X].map(|d| capability.momentum_along(d).best);
         assert!((on - 30.0).abs() < 1e-12 && (back - 70.0).abs() < 1e-12, "{on} {back}");
-        assert_eq!(able.torque_along(X), Reach { plain: 0.2, most: 0.2 });
+        assert_eq!(capability.torque_along(X), Bounds::equal(0.2));
     }
 
     /// From zero angles the pyramid gives 2 cos β of torque and of momentum along x, at best 2 + 2 cos β.
@@ -172,16 +163,16 @@ mod tests {
         let mut equipment = Equipment::default();
         let gyros = pyramid(0.6, 50.0).map(|gyro| ControlMomentGyro { rate_limit: 0.8, ..gyro });
         equipment.actuators.gyros = List::new(&gyros);
-        let able = Capability::of(&equipment, Vec3::zero());
-        let (torque, momentum) = (able.torque_along(X), able.momentum_along(X));
+        let capability = Capability::of(&equipment, Vec3::zero());
+        let (torque, momentum) = (capability.torque_along(X), capability.momentum_along(X));
         // Measured 0.
         assert!(
-            (torque.plain - 48.0).abs() < 1e-12 && (torque.most - 128.0).abs() < 1e-9,
+            (torque.plain - 48.0).abs() < 1e-12 && (torque.best - 128.0).abs() < 1e-9,
             "{torque:?}"
         );
         // It ends some milliradians before the surface. Measured 2e-3.
         assert!(
-            (momentum.plain - 60.0).abs() < 5e-3 && (momentum.most - 160.0).abs() < 1e-9,
+            (momentum.plain - 60.0).abs() < 5e-3 && (momentum.best - 160.0).abs() < 1e-9,
             "{momentum:?}"
         );
     }
@@ -191,13 +182,13 @@ mod tests {
     fn gyros_that_hold_momentum_at_the_start_have_less_left_one_way() {
         let mut equipment = Equipment::default();
         equipment.actuators.gyros = List::new(&pyramid(0.6, 50.0));
-        let at_rest = Capability::of(&equipment, Vec3::zero()).momentum_along(X).most;
+        let at_rest = Capability::of(&equipment, Vec3::zero()).momentum_along(X).best;
         equipment.gimbal_angle[..4].copy_from_slice(&[0.5, 0.0, -0.5, 0.0]);
         let held = equipment.actuators.gyros.iter().zip(equipment.gimbal_angle);
         let held = held.fold(Vec3::zero(), |sum, (g, a)| sum + g.spin_axis(a) * g.momentum);
-        let able = Capability::of(&equipment, Vec3::zero());
+        let capability = Capability::of(&equipment, Vec3::zero());
         let d = held * (1.0 / held.norm());
-        let [on, back] = [d, -d].map(|d| able.momentum_along(d).most);
+        let [on, back] = [d, -d].map(|d| capability.momentum_along(d).best);
         assert!(held.norm() > 10.0 && at_rest > 100.0, "{held:?}");
         // The surface is as far forth as back. Measured 0.
         assert!((back - on - 2.0 * held.norm()).abs() < 1e-6, "{on} {back} {held:?}");
@@ -221,8 +212,8 @@ mod tests {
 
     #[test]
     fn the_reference_is_never_at_its_end() {
-        let able = Capability::ideal();
-        assert_eq!(able.torque_along(X).plain, f64::INFINITY);
-        assert_eq!(able.momentum_along(X).most, f64::INFINITY);
+        let capability = Capability::ideal();
+        assert_eq!(capability.torque_along(X).plain, f64::INFINITY);
+        assert_eq!(capability.momentum_along(X).best, f64::INFINITY);
     }
 }

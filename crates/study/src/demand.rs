@@ -66,7 +66,7 @@ impl Demand {
     /// What is left if as much of the torque as there is along its direction is taken all the while;
     /// `takes`: largest torque along a unit vector (N·m).
     #[must_use]
-    pub fn less(&self, takes: impl Fn(Vec3<f64>) -> f64) -> Self {
+    pub fn residual(&self, takes: impl Fn(Vec3<f64>) -> f64) -> Self {
         let left = |torque: &Vec3<f64>| {
             let size = torque.norm();
             if size > 0.0 { (1.0 - takes(*torque * (1.0 / size)) / size).max(0.0) } else { 0.0 }
@@ -88,7 +88,7 @@ impl Demand {
     }
     /// The same motion done more slowly, by a factor: torque falls with its square, momentum with it.
     #[must_use]
-    pub fn slower(&self, factor: f64) -> Self {
+    pub fn time_scaled(&self, factor: f64) -> Self {
         Self {
             time: self.time.iter().map(|t| t * factor).collect(),
             torque_B: self.torque_B.iter().map(|v| *v * (1.0 / (factor * factor))).collect(),
@@ -144,7 +144,7 @@ mod tests {
 
     #[test]
     fn twice_as_slow_asks_for_a_quarter_of_the_torque_and_half_of_the_momentum() {
-        let slow = push_and_stop().slower(2.0);
+        let slow = push_and_stop().time_scaled(2.0);
         assert_eq!(slow.duration(), 20.0);
         assert_eq!(slow.peak_torque(), vec3(0.0, 0.5, 0.0));
         assert_eq!(slow.peak_momentum(), vec3(0.0, -5.0, 0.0));
@@ -153,12 +153,12 @@ mod tests {
     #[test]
     fn of_what_half_is_taken_half_is_left() {
         let all = push_and_stop();
-        assert_eq!(all.less(|_| 0.0), all);
-        let half = all.less(|_| 1.0);
+        assert_eq!(all.residual(|_| 0.0), all);
+        let half = all.residual(|_| 1.0);
         assert_eq!(half.peak_torque(), vec3(0.0, 1.0, 0.0));
         // Sums of a thousand roundings. Measured 0.
         assert!((half.peak_momentum() - vec3(0.0, -5.0, 0.0)).norm() < 1e-9);
-        assert_eq!(all.less(|_| 3.0).peak_momentum(), Vec3::zero());
+        assert_eq!(all.residual(|_| 3.0).peak_momentum(), Vec3::zero());
     }
 
     #[test]

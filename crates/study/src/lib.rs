@@ -2,6 +2,7 @@
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 #![allow(clippy::format_push_string, reason = "`text += &format!(…)` reads as what it does")]
 
+mod bounds;
 mod capability;
 mod demand;
 mod envelope;
@@ -9,7 +10,6 @@ mod findings;
 mod flights;
 mod hand_check;
 mod judgement;
-mod lightest;
 mod outcome;
 mod own_units;
 mod sets;
@@ -17,13 +17,14 @@ mod size;
 mod study;
 mod study_table;
 
-pub use capability::{Capability, Reach};
+pub use bounds::Bounds;
+pub use capability::Capability;
 pub use demand::Demand;
 pub use envelope::{
     Facet, Mesh, Piece, Solid, SteeringPath, SteeringReach, ThrusterTorque, facets, first_outside,
     least_flow, singular_surfaces, steering_path, steering_reach, thruster_torque,
 };
-pub use judgement::{Answer, Both, Judgement, judge};
+pub use judgement::{Answer, Judgement, judge};
 pub use outcome::{
     Finding, Flown, HandCheck, SetCard, SetKind, SetVerdict, StudyOutcome, TaskOutcome,
 };

@@ -1,9 +1,10 @@
 //! What a study leaves behind: demands, sets, verdicts, findings. Plain data for those who record or
 //! draw it.
 
+use crate::bounds::Bounds;
 use crate::demand::Demand;
 use crate::envelope::Mesh;
-use crate::judgement::{Answer, Both};
+use crate::judgement::Answer;
 use serde::Serialize;
 use wrasse_mission::ProvenanceRow;
 
@@ -79,9 +80,9 @@ pub struct SetCard {
     /// Propellant at the start (kg), if it has a tank.
     pub propellant_kg: Option<f64>,
     /// Torque along x, y and z of the base (N·m); none if endless.
-    pub torque_nm: [Option<Both<f64>>; 3],
+    pub torque_nm: [Option<Bounds<f64>>; 3],
     /// Momentum along x, y and z of the base (N·m·s); none if endless.
-    pub momentum_nms: [Option<Both<f64>>; 3],
+    pub momentum_nms: [Option<Bounds<f64>>; 3],
     /// Momentum that it holds in every direction, with the best steering (N·m·s); none if endless.
     pub momentum_everywhere_nms: Option<f64>,
     /// Where its numbers come from.
@@ -149,15 +150,15 @@ pub struct SetVerdict {
     /// Whether the tank holds the propellant for it; yes where none is needed or no tank is given.
     pub propellant: Answer,
     /// Torque asked over torque there is, at its worst (–); none where there is none.
-    pub torque_load: Both<Option<f64>>,
+    pub torque_load: Bounds<Option<f64>>,
     /// Torque along the peak of the demand (N·m); none if endless.
-    pub torque_nm: Both<Option<f64>>,
+    pub torque_nm: Bounds<Option<f64>>,
     /// Momentum along the peak of the demand (N·m·s); none if endless.
-    pub momentum_nms: Both<Option<f64>>,
+    pub momentum_nms: Bounds<Option<f64>>,
     /// When the set can hold no more (s); none if never.
-    pub saturates_s: Both<Option<f64>>,
+    pub saturates_s: Bounds<Option<f64>>,
     /// How many times slower the task must be; none if that is no remedy.
-    pub slower: Both<Option<f64>>,
+    pub slower: Bounds<Option<f64>>,
     /// Propellant for the torque (kg).
     pub fuel_kg: Option<f64>,
     /// Propellant for the torque and for the force that keeps the base in place (kg).

@@ -1,12 +1,13 @@
 //! A study flown and judged.
 
-use crate::capability::{Capability, Reach};
+use crate::bounds::Bounds;
+use crate::capability::Capability;
 use crate::demand::Demand;
 use crate::envelope::{Mesh, facets, singular_surfaces};
 use crate::findings::findings;
 use crate::flights::fly;
 use crate::hand_check::Start;
-use crate::judgement::{Both, Judgement, judge};
+use crate::judgement::{Judgement, judge};
 use crate::outcome::{Finding, Flown, SetCard, SetKind, SetVerdict, StudyOutcome, TaskOutcome};
 use crate::study::{Study, Task};
 use wrasse_dynamics::{JointKind, State};
@@ -72,8 +73,8 @@ fn card(study: &Study, k: usize) -> SetCard {
     let equipment = case.map_or(&nothing, |case| study.mission.equipment(case));
     let ideal = k == study.reference;
     let limited = case.and_then(|case| study.mission.ideal_actuator(case));
-    let able = match case {
-        Some(case) if !ideal => able(study, case, Vec3::zero()),
+    let capability = match case {
+        Some(case) if !ideal => capability(study, case, Vec3::zero()),
         _ => Capability::ideal(),
     };
     let units = [vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0)];
@@ -93,18 +94,19 @@ fn card(study: &Study, k: usize) -> SetCard {
         power_w: known(equipment.power),
         within_mass_limit: within(equipment.mass, most_mass),
         within_power_limit: within(equipment.power, most_power),
-        propellant_kg: known(able.propellant),
-        torque_nm: units.map(|d| bounded(able.torque_along(d))),
-        momentum_nms: units.map(|d| bounded(able.momentum_along(d))),
-        momentum_everywhere_nms: (!able.is_unbounded()).then(|| able.momentum.smallest_radius().1),
+        propellant_kg: known(capability.propellant),
+        torque_nm: units.map(|d| bounded(capability.torque_along(d))),
+        momentum_nms: units.map(|d| bounded(capability.momentum_along(d))),
+        momentum_everywhere_nms: (!capability.is_unbounded())
+            .then(|| capability.momentum.smallest_radius().1),
         provenance: if ideal { vec![] } else { provenance(equipment) },
-        surfaces: if ideal { vec![] } else { surfaces(&able) },
+        surfaces: if ideal { vec![] } else { surfaces(&capability) },
     }
 }
 
 /// What the set of a case can do, about a centre of mass (m, base axes). An ideal actuator within its
 /// limits is three wheels of these limits along the axes of the base.
-fn able(study: &Study, case: usize, p_BScm_B: Vec3<f64>) -> Capability {
+fn capability(study: &Study, case: usize, p_BScm_B: Vec3<f64>) -> Capability {
     let Some(limits) = study.mission.ideal_actuator(case) else {
         return Capability::of(study.mission.equipment(case), p_BScm_B);
     };
@@ -134,8 +136,8 @@ fn kind(equipment: &Equipment) -> SetKind {
 }
 
 /// A reach for a table; none if endless.
-fn bounded(reach: Reach) -> Option<Both<f64>> {
-    reach.most.is_finite().then_some(Both { plain: reach.plain, best: reach.most })
+fn bounded(reach: Bounds<f64>) -> Option<Bounds<f64>> {
+    reach.best.is_finite().then_some(reach)
 }
 
 fn provenance(equipment: &Equipment) -> Vec<ProvenanceRow> {
@@ -153,12 +155,12 @@ fn provenance(equipment: &Equipment) -> Vec<ProvenanceRow> {
 }
 
 /// The momentum of a set as surfaces: singular surfaces of gyros, faces of wheels.
-fn surfaces(able: &Capability) -> Vec<Mesh> {
-    if !able.gyros.is_empty() {
-        return singular_surfaces(&able.gyros, RINGS);
+fn surfaces(capability: &Capability) -> Vec<Mesh> {
+    if !capability.gyros.is_empty() {
+        return singular_surfaces(&capability.gyros, RINGS);
     }
     let mut mesh = Mesh::default();
-    for facet in facets(&able.momentum.centred()) {
+    for facet in facets(&capability.momentum.centred()) {
         let first = mesh.points.len();
         mesh.faces.push((first..first + facet.corners.len()).collect());
         mesh.points.extend(facet.corners);
@@ -178,8 +180,9 @@ fn task_outcome(study: &Study, task: &Task, flown: &[CaseOutcome]) -> TaskOutcom
     let mut others = flown[1..].iter();
     let verdicts = (0..study.sets.len()).map(|k| {
         let ideal = k == study.reference;
-        let able = if ideal { Capability::ideal() } else { able(study, task.cases[k], centre) };
-        let judged = judge(&demand, &able, own_motion);
+        let capability =
+            if ideal { Capability::ideal() } else { capability(study, task.cases[k], centre) };
+        let judged = judge(&demand, &capability, own_motion);
         // The reference is the first of the flights, wherever it stands among the sets.
         let flight = if ideal { task.closed_loop.then_some(reference) } else { others.next() };
         verdict(&study.sets[k], &judged, flight.map(flown_with))
@@ -302,19 +305,17 @@ fn flown_with(case: &CaseOutcome) -> Flown {
 
 fn verdict(set: &str, judged: &Judgement, flown: Option<Flown>) -> SetVerdict {
     let finite = |x: f64| x.is_finite().then_some(x);
-    let reach = |r: Reach| Both { plain: finite(r.plain), best: finite(r.most) };
-    let load = judged.torque_load;
     SetVerdict {
         set: set.to_owned(),
         suffices: judged.torque.max(judged.momentum).max(judged.propellant),
         torque: judged.torque,
         momentum: judged.momentum,
         propellant: judged.propellant,
-        torque_load: Both { plain: finite(load.plain), best: finite(load.best) },
-        torque_nm: reach(judged.torque_there),
-        momentum_nms: reach(judged.momentum_there),
+        torque_load: judged.torque_load.map(finite),
+        torque_nm: judged.torque_there.map(finite),
+        momentum_nms: judged.momentum_there.map(finite),
         saturates_s: judged.saturates,
-        slower: judged.slower,
+        slower: judged.time_scaling,
         fuel_kg: judged.fuel,
         fuel_in_place_kg: judged.fuel_in_place,
         flown,

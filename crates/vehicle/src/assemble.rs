@@ -2,10 +2,10 @@
 //! body, seen from the frame of the link that the moving joint carries.
 
 use crate::assembly::{AssemblyJoint, Link};
+use crate::check::{
+    Edge, Tree, check_joint, check_matter, doubt_joint, doubt_mass, doubt_matter, tree,
+};
 use crate::findings::Findings;
-use crate::physical::{check_joint, check_matter};
-use crate::plausible::{doubt_joint, doubt_mass, doubt_matter};
-use crate::tree::{Edge, Tree, tree};
 use crate::vehicle::{GraspBounds, JOINTS, NamedFrame, VehicleRobot};
 use std::sync::Arc;
 use wrasse_document::{Complaint, Source};
@@ -15,7 +15,7 @@ use wrasse_spatial::Pose;
 
 /// A robot, and the names that belong to it.
 #[derive(Debug)]
-pub(crate) struct Assembled {
+pub(crate) struct AssembledRobot {
     pub(crate) robot: VehicleRobot,
     /// Names of the moving joints, in the robot's order: the file's, parents before children.
     pub(crate) joint_names: Vec<String>,
@@ -35,7 +35,7 @@ pub(crate) fn assemble(
     source: &Arc<Source>,
     links: &[Link],
     joints: &[AssemblyJoint],
-) -> Result<Assembled, Vec<Complaint>> {
+) -> Result<AssembledRobot, Vec<Complaint>> {
     let mut found = Findings::new(source);
     for link in links {
         check_matter(link, &mut found);
@@ -143,7 +143,7 @@ impl Parts {
         links: &[Link],
         joints: &[AssemblyJoint],
         mut found: Findings,
-    ) -> Result<Assembled, Vec<Complaint>> {
+    ) -> Result<AssembledRobot, Vec<Complaint>> {
         if !found.without_error() {
             return Err(found.into_complaints());
         }
@@ -166,7 +166,7 @@ impl Parts {
             grasp_bounds: GraspBounds::default(),
         };
         let of_moving = |(edge, ..): &(Edge, BodyId, Pose<f64>)| &joints[edge.joint];
-        Ok(Assembled {
+        Ok(AssembledRobot {
             robot,
             joint_names: self.moving.iter().map(|m| of_moving(m).name.clone()).collect(),
             limits: self.moving.iter().map(|m| of_moving(m).limits).collect(),
@@ -203,7 +203,7 @@ mod tests {
         Link { name: "bus".into(), at: 0..1, matter: Some(matter) }
     }
 
-    fn assembled(bus: Link) -> Result<Assembled, Vec<Complaint>> {
+    fn assembled(bus: Link) -> Result<AssembledRobot, Vec<Complaint>> {
         assemble(&Source::new("bus.toml", "bus"), &[bus], &[])
     }
 

@@ -1,6 +1,6 @@
 //! What is bolted on a base, read and checked, with the names of its units.
 
-use crate::vehicle::Provenance;
+use crate::provenance::Provenance;
 use wrasse_hardware::{Actuators, GYROS, WHEELS};
 
 /// Wheels, gyros and thrusters, as the file describes them.

@@ -1,7 +1,7 @@
 //! A vehicle file to a vehicle, whatever its format.
 
-use crate::read_toml::read_toml;
-use crate::read_urdf::read_urdf;
+use crate::toml::read_toml;
+use crate::urdf::read_urdf;
 use crate::vehicle::Vehicle;
 use std::path::PathBuf;
 use wrasse_document::{Complaint, Source};

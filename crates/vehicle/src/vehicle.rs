@@ -1,6 +1,7 @@
 //! A checked vehicle: everything that the rest of the program knows of it.
 
 use crate::equipment::Equipment;
+use crate::provenance::Provenance;
 use wrasse_document::Complaint;
 use wrasse_dynamics::{Frame, Robot};
 use wrasse_hardware::{AttitudeActuator, JointLimits, Sensors};
@@ -81,28 +82,6 @@ pub struct Posture {
     pub q: Vec<f64>,
 }
 
-/// How sure a number is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Grade {
-    /// In a document that the source names.
-    Published,
-    /// Computed from published numbers, as the source says.
-    Derived,
-    /// Chosen here.
-    Assumed,
-}
-
-/// Where a number, or a block of them, comes from.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Provenance {
-    /// What it is about, as a path in the file: `body.bus.mass_kg`.
-    pub of: String,
-    /// How sure it is.
-    pub grade: Grade,
-    /// Document, page, or reasoning.
-    pub source: String,
-}
-
 /// A body's outline: for drawings, and for what must stay outside of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shape {
@@ -128,6 +107,17 @@ pub enum ShapeKind {
     },
     /// A sphere of this radius (m).
     Sphere(f64),
+}
+
+impl ShapeKind {
+    /// All lengths of which each must be positive (m).
+    pub(crate) fn sizes(self) -> Vec<f64> {
+        match self {
+            Self::Box(edges) => edges.to_array().to_vec(),
+            Self::Cylinder { radius, length } => vec![radius, length],
+            Self::Sphere(radius) => vec![radius],
+        }
+    }
 }
 
 impl Vehicle {

@@ -15,6 +15,7 @@ mod thruster_selection;
 mod unloading;
 mod wheel_allocation;
 
+pub use bounded_simplex::BoundedSimplex;
 pub use gyro_steering::{Damping, GyroLaw, GyroSharing, Waves, gyro_rates, gyro_singularity};
 pub use posture_relief::{NoRelief, Relief, ReliefUse, ToolTask, momentum_rate, posture_relief};
 pub use preferred_angles::preferred_angles;

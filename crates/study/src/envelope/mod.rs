@@ -4,7 +4,6 @@
 mod directions;
 mod facets;
 mod leaving;
-mod linear_program;
 #[cfg(test)]
 pub(crate) mod pyramid;
 mod singular_surface;

@@ -1,7 +1,8 @@
 //! Convex solids that are sums of simple pieces: what several actuators can hold or give together.
 
 use super::directions::{across, least_over_directions};
-use super::linear_program::LinearProgram;
+use wrasse_flight::steering::BoundedSimplex;
+use wrasse_hardware::{GYROS, WHEELS};
 use wrasse_spatial::Vec3;
 
 /// One summand of a solid.
@@ -45,6 +46,12 @@ const SECTIONS: usize = 46;
 
 /// Where the search for a bracket ends: a solid so flat reaches a millionth of its size.
 const FARTHEST: f64 = 1e6;
+
+/// Most columns of a linear program: both ways of every wheel and every gyro.
+const COLUMNS: usize = 2 * (WHEELS + GYROS);
+
+/// Its variables: the columns, the length along a direction, and the start, one for each axis.
+const VARIABLES: usize = COLUMNS + 1 + 3;
 
 impl Piece {
     /// Largest component along `u` of a point of the piece.
@@ -97,13 +104,7 @@ impl Solid {
     }
     /// How far the solid reaches from zero along the unit vector `d`.
     pub fn radius(&self, d: Vec3<f64>) -> f64 {
-        let straight =
-            |piece: &Piece| matches!(piece, Piece::Segment { .. } | Piece::OneSided { .. });
-        if self.pieces.iter().all(straight) {
-            self.radius_by_program(d)
-        } else {
-            self.radius_by_support(d).max(0.0)
-        }
+        self.radius_by_program(d).unwrap_or_else(|| self.radius_by_support(d).max(0.0))
     }
     /// How many times `point` is farther out than the surface in its direction: inside up to one.
     pub fn load(&self, point: Vec3<f64>) -> f64 {
@@ -128,30 +129,38 @@ impl Solid {
         let candidates: Vec<_> = pairs.chain(both).filter(|c| c.norm() > 0.0).collect();
         least_over_directions(&candidates, |u| self.support(u))
     }
-    /// Exact for a polytope: the largest `t` with `t d` a sum of points of the pieces.
-    fn radius_by_program(&self, d: Vec3<f64>) -> f64 {
+    /// Exact for a polytope of at most [`COLUMNS`] columns: the largest `t` with `t d` a sum of points
+    /// of the pieces.
+    fn radius_by_program(&self, d: Vec3<f64>) -> Option<f64> {
         let mut columns = vec![];
         for piece in &self.pieces {
             match *piece {
                 // From -half to half is half times (share below two, less one).
                 Piece::Segment { half } => columns.extend([half, -half]),
                 Piece::OneSided { end } => columns.push(end),
-                Piece::Disc { .. } | Piece::Shift { .. } => {}
+                Piece::Disc { .. } | Piece::Shift { .. } => return None,
             }
         }
-        let mut rows = vec![vec![]; 3];
-        for column in columns.iter().copied().chain([-d]) {
-            for (row, a) in rows.iter_mut().zip(column.to_array()) {
-                row.push(a);
-            }
+        let largest = columns.iter().flat_map(|c| c.to_array()).fold(0.0, |m, x| x.abs().max(m));
+        if columns.len() > COLUMNS || largest == 0.0 {
+            return (largest == 0.0).then_some(0.0);
         }
-        let n = columns.len();
-        let mut gain = vec![0.0; n];
-        gain.push(1.0);
-        let mut most = vec![1.0; n];
-        most.push(f64::INFINITY);
-        let program = LinearProgram { rows, wanted: vec![0.0; 3], gain, most };
-        program.solve().map_or(0.0, |x| x[n])
+        let mut rows = [[0.0; VARIABLES]; 3];
+        for (k, row) in rows.iter_mut().enumerate() {
+            for (a, column) in row.iter_mut().zip(&columns) {
+                *a = column.to_array()[k] / largest;
+            }
+            row[COLUMNS] = -d.to_array()[k];
+            row[COLUMNS + 1 + k] = 1.0;
+        }
+        // Nothing is left over, and no sum of columns is longer.
+        let mut upper = [0.0; VARIABLES];
+        upper[..columns.len()].fill(1.0);
+        upper[COLUMNS] = 2.0 * COLUMNS as f64;
+        let mut program = BoundedSimplex::new(rows, upper).with_largest_pivots();
+        let mut cost = [0.0; VARIABLES];
+        cost[COLUMNS] = -1.0;
+        program.minimise(&cost).then(|| program.value(COLUMNS) * largest)
     }
     /// The least of `support(u) / (u · d)`: a convex function of the two components of `u` across `d`.
     fn radius_by_support(&self, d: Vec3<f64>) -> f64 {
@@ -243,7 +252,7 @@ mod tests {
             pieces: vec![Piece::OneSided { end: vec3(0.2, -0.7, 0.4) }, segment(0.1, 0.5, -0.3)],
         });
         let off = spread(40)
-            .map(|d| (solid.radius_by_program(d) - solid.radius_by_support(d)).abs())
+            .map(|d| (solid.radius_by_program(d).unwrap() - solid.radius_by_support(d)).abs())
             .fold(0.0, f64::max);
         // The last golden section, times the slope. Measured 1.2e-10.
         assert!(off < 1e-8, "{off:e}");

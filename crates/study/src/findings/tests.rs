@@ -1,9 +1,12 @@
 //! Findings from verdicts that are written down.
 
+use super::wording::{FINEST_MM, rounded, span};
 use super::*;
-use crate::judgement::Both;
+use crate::bounds::Bounds;
+use crate::judgement::Answer;
+use crate::outcome::{Flown, SetKind, SetVerdict};
 
-pub(crate) fn set(name: &str, kind: SetKind) -> SetCard {
+pub(super) fn set(name: &str, kind: SetKind) -> SetCard {
     SetCard {
         name: name.into(),
         kind,
@@ -20,8 +23,8 @@ pub(crate) fn set(name: &str, kind: SetKind) -> SetCard {
     }
 }
 
-pub(crate) fn verdict(set: &str, torque: Answer, momentum: Answer) -> SetVerdict {
-    let none = Both { plain: None, best: None };
+pub(super) fn verdict(set: &str, torque: Answer, momentum: Answer) -> SetVerdict {
+    let none = Bounds { plain: None, best: None };
     SetVerdict {
         set: set.into(),
         suffices: torque.max(momentum),
@@ -39,7 +42,7 @@ pub(crate) fn verdict(set: &str, torque: Answer, momentum: Answer) -> SetVerdict
     }
 }
 
-pub(crate) fn task(name: &str, verdicts: Vec<SetVerdict>) -> TaskOutcome {
+pub(super) fn task(name: &str, verdicts: Vec<SetVerdict>) -> TaskOutcome {
     TaskOutcome {
         name: name.into(),
         labels: vec![],
@@ -58,7 +61,7 @@ pub(crate) fn task(name: &str, verdicts: Vec<SetVerdict>) -> TaskOutcome {
 }
 
 /// A flight that holds its requirements.
-pub(crate) fn flown() -> Flown {
+pub(super) fn flown() -> Flown {
     Flown {
         tool_error_mm: 0.4,
         tool_error_at_end_mm: 0.1,

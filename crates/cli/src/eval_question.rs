@@ -1,0 +1,164 @@
+//! The states that `wrasse eval` is asked about, from JSON.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+use std::path::Path;
+use wrasse_document::{Complaint, Document, at, closest};
+use wrasse_dynamics::{Generalized, State};
+use wrasse_spatial::{Pose, Quat, SpatialForce, SpatialVelocity, Vec3};
+use wrasse_vehicle::{JOINTS, Vehicle};
+
+/// What `--states` holds.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct StatesFile {
+    frame: String,
+    states: Vec<StateFile>,
+}
+
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+struct StateFile {
+    base: BaseFile,
+    base_velocity: TwistFile,
+    base_acceleration: TwistFile,
+    base_wrench: WrenchFile,
+    joints: BTreeMap<String, JointFile>,
+}
+
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+struct BaseFile {
+    position: [f64; 3],
+    attitude: Option<AttitudeFile>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct AttitudeFile {
+    w: f64,
+    x: f64,
+    y: f64,
+    z: f64,
+}
+
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+struct TwistFile {
+    angular: [f64; 3],
+    linear: [f64; 3],
+}
+
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+struct WrenchFile {
+    torque: [f64; 3],
+    force: [f64; 3],
+}
+
+#[derive(Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+struct JointFile {
+    position: f64,
+    velocity: f64,
+    acceleration: f64,
+    torque: f64,
+}
+
+/// One state, and what acts in it.
+#[derive(Debug, Clone)]
+pub(crate) struct Question {
+    pub(crate) state: State<f64, JOINTS>,
+    pub(crate) nudot: Generalized<SpatialVelocity<f64>, f64, JOINTS>,
+    pub(crate) force: Generalized<SpatialForce<f64>, f64, JOINTS>,
+}
+
+/// The frame and the states that a file asks about.
+pub(crate) fn questions(
+    path: &Path,
+    text: String,
+    vehicle: &Vehicle,
+) -> Result<(String, Vec<Question>), Vec<Complaint>> {
+    let document = Document::parse_json(path, text)?;
+    let part = document.read_in_part::<StatesFile>();
+    let Some(file) = part.value else { return Err(part.complaints) };
+    let mut complaints = wrong_names(&part.document, &file, vehicle);
+    let mut questions = vec![];
+    for (i, state) in file.states.iter().enumerate() {
+        match question(state, vehicle) {
+            Ok(question) => questions.push(question),
+            Err(why) => {
+                let at = at!["states", i, "base", "attitude"];
+                let message = format!("state {i}: {why}");
+                let complaint = part.document.error(at, message, "this attitude");
+                complaints.push(complaint.with_help("divide all four components by the length"));
+            }
+        }
+    }
+    let complaints = document.beside(part.complaints, complaints);
+    if complaints.is_empty() { Ok((file.frame, questions)) } else { Err(complaints) }
+}
+
+/// Names that the vehicle does not have; each of them once.
+fn wrong_names(document: &Document, file: &StatesFile, vehicle: &Vehicle) -> Vec<Complaint> {
+    let unknown = |at: Option<Range<usize>>, name: &str, what: &str, names: Vec<&str>| {
+        let message = format!("the vehicle has no {what} called {name:?}");
+        let complaint = Complaint::error(document.source(), message);
+        let complaint = complaint.at(at.unwrap_or(0..0), "this name");
+        match closest(name, names.iter().copied()) {
+            Some(close) => complaint.with_help(format!("did you mean {close:?}?")),
+            None => complaint.with_help(format!("one of {}", names.join(", "))),
+        }
+    };
+    let mut complaints = vec![];
+    if vehicle.frame(&file.frame).is_none() {
+        let names = vehicle.frames.iter().map(|f| f.name.as_str()).collect();
+        complaints.push(unknown(document.span(at!["frame"]), &file.frame, "link", names));
+    }
+    let mut asked = BTreeSet::new();
+    for (i, state) in file.states.iter().enumerate() {
+        for name in state.joints.keys() {
+            if vehicle.joint(name).is_none() && asked.insert(name) {
+                let names = vehicle.joint_names.iter().map(String::as_str).collect();
+                let at = document.key_span(at!["states", i, "joints", name]);
+                complaints.push(unknown(at, name, "moving joint", names));
+            }
+        }
+    }
+    complaints
+}
+
+fn question(file: &StateFile, vehicle: &Vehicle) -> Result<Question, String> {
+    let v3 = Vec3::from_array;
+    let mut quat_NB = Quat::identity();
+    if let Some(AttitudeFile { w, x, y, z }) = file.base.attitude {
+        quat_NB = Quat { w, x, y, z };
+        let norm = quat_NB.norm();
+        if (norm - 1.0).abs() > 1e-6 {
+            return Err(format!("an attitude is a unit quaternion, found one of length {norm}"));
+        }
+    }
+    let mut q = Question {
+        state: State {
+            X_NB: Pose::from_quat(quat_NB.normalized(), v3(file.base.position)),
+            V_NB_B: SpatialVelocity::new(
+                v3(file.base_velocity.angular),
+                v3(file.base_velocity.linear),
+            ),
+            ..State::default()
+        },
+        nudot: Generalized::default(),
+        force: Generalized::default(),
+    };
+    q.nudot.base =
+        SpatialVelocity::new(v3(file.base_acceleration.angular), v3(file.base_acceleration.linear));
+    q.force.base = SpatialForce::new(v3(file.base_wrench.torque), v3(file.base_wrench.force));
+    for (name, joint) in &file.joints {
+        let Some(j) = vehicle.joint(name) else { continue };
+        (q.state.q[j], q.state.v[j]) = (joint.position, joint.velocity);
+        (q.nudot.joints[j], q.force.joints[j]) = (joint.acceleration, joint.torque);
+    }
+    Ok(q)
+}

@@ -1,0 +1,14 @@
+//! Whether what a file says can be, and whether it is believed.
+
+mod equipment_on_base;
+mod physical;
+mod plausible;
+mod spanning;
+mod torque_cone;
+mod tree;
+
+pub use equipment_on_base::check_equipment;
+pub(crate) use physical::{check_joint, check_matter};
+pub(crate) use plausible::{doubt_joint, doubt_mass, doubt_matter};
+pub(crate) use spanning::check_spanning;
+pub(crate) use tree::{Edge, Tree, tree};

@@ -1,0 +1,22 @@
+//! The tables `[actuators]` and `[sensors]` of vehicle and mission files, one file for each table in
+//! them, and the catalogue of units.
+
+mod actuators;
+mod catalogue;
+mod gyro;
+mod gyro_array;
+mod numbers;
+mod rate_gyro;
+mod sensors;
+mod star_tracker;
+mod tank;
+mod thruster;
+mod thruster_set;
+mod unit;
+mod wheel;
+
+pub(crate) use actuators::equipment;
+pub use actuators::{EquipmentFile, read_equipment};
+pub use catalogue::{HardwareEntry, hardware};
+pub(crate) use sensors::sensors;
+pub use sensors::{SensorsFile, read_sensors};

@@ -1,0 +1,114 @@
+//! The tables `[[posture]]`: named positions of the joints.
+
+use crate::assemble::AssembledRobot;
+use crate::assembly::AssemblyJoint;
+use crate::table::{Reading, SourceFile};
+use crate::vehicle::Posture;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use wrasse_document::{Step, at, closest};
+use wrasse_dynamics::JointKind;
+
+/// Named positions of the joints; a joint that is not named is at zero.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PostureFile {
+    /// What it is called.
+    #[schemars(length(min = 1))]
+    pub(crate) name: String,
+    /// Positions of joints that turn, by name (deg).
+    #[serde(default)]
+    pub(crate) joints_deg: BTreeMap<String, f64>,
+    /// Positions of joints that slide, by name (m).
+    #[serde(default)]
+    pub(crate) joints_m: BTreeMap<String, f64>,
+    /// Where these numbers come from.
+    pub(crate) source: Option<SourceFile>,
+}
+
+/// Postures name joints that move, in the unit of their motion, within their travel.
+pub(crate) fn check_postures(
+    reading: &mut Reading<'_>,
+    postures: &[PostureFile],
+    joints: &[AssemblyJoint],
+) {
+    let moving = joints.iter().filter_map(|j| Some((j.name.as_str(), (j.kind?, j.limits.travel))));
+    let moving: BTreeMap<_, _> = moving.collect();
+    for (i, posture) in postures.iter().enumerate() {
+        if let Some(first) = postures[..i].iter().position(|p| p.name == posture.name) {
+            let line = reading.found.line(reading.at(at!["posture", first, "name"]).start);
+            let message =
+                format!("two postures are called '{}'; the other is on line {line}", posture.name);
+            let help = "give one of them another name";
+            reading.error(at!["posture", i, "name"], message, "the second", help);
+        }
+        for (key, kind, positions) in [
+            ("joints_deg", JointKind::Revolute, &posture.joints_deg),
+            ("joints_m", JointKind::Prismatic, &posture.joints_m),
+        ] {
+            for (name, position) in positions {
+                let path = at!["posture", i, key, name];
+                check_position(reading, path, kind, *position, &moving);
+            }
+        }
+    }
+}
+
+/// Joints that move, by name: how, and from where to where (rad or m).
+type Moving<'a> = BTreeMap<&'a str, (JointKind, Option<(f64, f64)>)>;
+
+fn check_position(
+    reading: &mut Reading<'_>,
+    path: &[Step<'_>],
+    kind: JointKind,
+    position: f64,
+    moving: &Moving<'_>,
+) {
+    let name = path.last().map(ToString::to_string).unwrap_or_default();
+    let Some((moves, travel)) = moving.get(name.as_str()) else {
+        // A joint whose name is left out may be meant.
+        if moving.contains_key("") {
+            return;
+        }
+        let message = format!("no joint that moves is called '{name}'");
+        let help = match closest(&name, moving.keys().copied()) {
+            Some(meant) => format!("did you mean '{meant}'?"),
+            None => format!(
+                "joints that move: {}",
+                moving.keys().copied().collect::<Vec<_>>().join(", ")
+            ),
+        };
+        return reading.wrong_key(path, message, "no such joint", &help);
+    };
+    if *moves != kind {
+        let (does, write) = match moves {
+            JointKind::Revolute => ("turns", "joints_deg"),
+            JointKind::Prismatic => ("slides", "joints_m"),
+        };
+        let message = format!("joint '{name}' {does}");
+        return reading.wrong_key(path, message, "wrong unit", &format!("write it in `{write}`"));
+    }
+    let (in_si, unit) = match kind {
+        JointKind::Revolute => (position.to_radians(), "deg"),
+        JointKind::Prismatic => (position, "m"),
+    };
+    // The ends of the travel are converted as the position is: equal stays equal.
+    if let Some((lower, upper)) = travel.filter(|(lower, upper)| in_si < *lower || in_si > *upper) {
+        let in_file = |end: f64| if kind == JointKind::Revolute { end.to_degrees() } else { end };
+        let (lower, upper) = (in_file(lower), in_file(upper));
+        let message = format!(
+            "joint '{name}' is at {position} {unit}, beyond its travel from {lower} to {upper} {unit}"
+        );
+        reading.warning(path, message, "beyond its travel", "");
+    }
+}
+
+/// A posture in the order of the robot's joints.
+pub(crate) fn posture(file: &PostureFile, assembled: &AssembledRobot) -> Posture {
+    let position = |name: &String| {
+        let turned = file.joints_deg.get(name).copied().map(f64::to_radians);
+        turned.or_else(|| file.joints_m.get(name).copied()).unwrap_or(0.0)
+    };
+    Posture { name: file.name.clone(), q: assembled.joint_names.iter().map(position).collect() }
+}

@@ -1,0 +1,9 @@
+//! URDF files.
+
+mod element;
+mod joint;
+mod link;
+mod numbers;
+mod robot;
+
+pub(crate) use robot::read_urdf;
