@@ -4,7 +4,7 @@
 //! whoever looks sees the former set, or the new one, and never a part or a mixture. What a program that
 //! was killed left behind is put right by the next one.
 
-use crate::RecordError;
+use crate::error::RecordError;
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, Write};
