@@ -107,6 +107,16 @@
       const inside = (low, x, high) => Math.min(Math.max(x, low), high);
       const [right, bottom] = [bbox.left + bbox.width, bbox.top + bbox.height];
       const beyond = { above: 0, below: 0 };
+      // On paper of their own: lines and numbers of events lie below.
+      const say = (text, x, y) => {
+        ctx.save();
+        ctx.setLineDash([]);
+        ctx.lineWidth = 4 * ratio;
+        ctx.strokeStyle = colour("paper");
+        ctx.strokeText(text, x, y);
+        ctx.fillText(text, x, y);
+        ctx.restore();
+      };
       ctx.save();
       ctx.strokeStyle = ctx.fillStyle = colour("bad");
       ctx.lineWidth = 1.5 * ratio;
@@ -122,7 +132,7 @@
           const side = y < bbox.top ? "above" : "below";
           const line = 12 * ratio * (beyond[side] += limit.text ? 1 : 0);
           const text = limit.text && limit.text + (side === "above" ? " ↑" : " ↓");
-          ctx.fillText(text, right - 3 * ratio, side === "above" ? bbox.top + line : bottom + 12 * ratio - line);
+          say(text, right - 3 * ratio, side === "above" ? bbox.top + line : bottom + 12 * ratio - line);
           return;
         }
         ctx.beginPath();
@@ -131,7 +141,7 @@
         ctx.stroke();
         // Below the line where there is no room above it.
         const room = y - bbox.top > 14 * ratio;
-        ctx.fillText(limit.text, to - 3 * ratio, room ? y - 2 * ratio : y + 13 * ratio);
+        say(limit.text, to - 3 * ratio, room ? y - 2 * ratio : y + 13 * ratio);
       });
       ctx.restore();
     };

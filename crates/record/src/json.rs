@@ -1,7 +1,7 @@
 //! Summaries: everything but the time histories, as JSON for programs.
 //!
-//! What `summary.json` holds and `--json` prints: keys in a fixed order, numbers that are not finite
-//! as `null`, units in the keys or beside the values.
+//! What `summary.json` holds and `--json` prints: keys in a fixed order, numbers that are not
+//! finite as `null`, units in the keys or beside the values.
 
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -26,8 +26,8 @@ pub fn sweep_json(outcome: &SweepOutcome) -> Value {
     summary(json!({ "format": 2 }), outcome)
 }
 
-/// An outcome behind the keys of `head`; `format` there is the version of the layout, which rises when a
-/// key changes its meaning or goes away.
+/// An outcome behind the keys of `head`; `format` there is the version of the layout, which rises
+/// when a key changes its meaning or goes away.
 fn summary(mut head: Value, outcome: &impl Serialize) -> Value {
     let outcome = serde_json::to_value(outcome).expect("an outcome has string keys only");
     if let (Value::Object(head), Value::Object(outcome)) = (&mut head, outcome) {

@@ -53,8 +53,8 @@ pub struct SweepWritten {
     pub summary: PathBuf,
 }
 
-/// Writes `report.html`, `telemetry.parquet` and `summary.json` into `dir`, which is made if need be;
-/// if that cannot be, the former result stays.
+/// Writes `report.html`, `telemetry.parquet` and `summary.json` into `dir`, which is made if need
+/// be; if that cannot be, the former result stays.
 ///
 /// # Errors
 /// A place that cannot be written, or telemetry whose channels do not fit together.

@@ -1,7 +1,7 @@
 //! Pages that open without a network: what the reports of a run, a study and a sweep share.
 //!
-//! Markup is made by `maud`, which escapes whatever is put into it; only what is `PreEscaped` here gets
-//! past it. A page reads as XML too, so that a test can tell whether every tag is closed.
+//! Markup is made by `maud`, which escapes whatever is put into it; only what is `PreEscaped` here
+//! gets past it. A page reads as XML too, so that a test can tell whether every tag is closed.
 
 use maud::{Markup, PreEscaped, Render, html};
 

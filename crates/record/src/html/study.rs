@@ -96,8 +96,8 @@ fn demands(tasks: &[TaskOutcome]) -> Markup {
     let hows: Vec<_> = hows.collect();
     html! {
         p.hint {
-            "Each task is flown with the reference. Momentum is what the actuators have to hold; for a \
-             task that ends under load it grows on and on."
+            "Each task is flown with the reference. Momentum is what the actuators have to hold; for \
+             a task that ends under load it grows on and on."
         }
         (table("sizes", &head, &body))
         @if !hows.is_empty() { (folded("How it is found by hand", &facts(&hows))) }
@@ -173,8 +173,8 @@ fn sets(sets: &[SetCard]) -> Markup {
     let sources: Vec<_> = sources.collect();
     html! {
         p.hint {
-            "Gyros: with steering by the pseudo-inverse from the gimbal angles at the start, and in \
-             brackets with the best steering there can be. Thrusters: couples."
+            "Gyros: with steering by the pseudo-inverse from the gimbal angles at the start, and \
+             in brackets with the best steering there can be. Thrusters: couples."
         }
         (table("sizes", &head, &body))
         @if !sources.is_empty() {
@@ -214,10 +214,10 @@ fn verdicts(outcome: &StudyOutcome) -> Markup {
     };
     html! {
         p.hint {
-            "What is there is counted along the peak of the demand. Figures in brackets: with the best \
-             steering. A motion that is N times slower needs an N-th of the momentum and an N²-th of \
-             the torque; against a force from outside no pace helps. How many times slower is rounded \
-             up."
+            "What is there is counted along the peak of the demand. Figures in brackets: with the \
+             best steering. A motion that is N times slower needs an N-th of the momentum and an \
+             N²-th of the torque; against a force from outside no pace helps. How many times \
+             slower is rounded up."
         }
         (table("sizes judged", &head, &body))
     }
@@ -294,8 +294,8 @@ fn flight(flown: &Flown) -> Markup {
     }
 }
 
-/// The momentum envelopes of the gyros, with what the tasks ask on top; of the wheels if there are no
-/// gyros.
+/// The momentum envelopes of the gyros, with what the tasks ask on top; of the wheels if there are
+/// no gyros.
 fn envelopes(outcome: &StudyOutcome) -> Markup {
     let drawn =
         |kind| outcome.sets.iter().filter(move |set| set.kind == kind && !set.surfaces.is_empty());
@@ -314,7 +314,8 @@ fn envelopes(outcome: &StudyOutcome) -> Markup {
     }
 }
 
-/// The tasks that ask for most momentum: some of the vehicle's own motions, some pushes from outside.
+/// The tasks that ask for most momentum: some of the vehicle's own motions, some pushes from
+/// outside.
 fn largest_demands(outcome: &StudyOutcome) -> Vec<&TaskOutcome> {
     let largest = |own_motion: bool| {
         let asks = |t: &&TaskOutcome| t.own_motion == own_motion && t.peak_momentum_nms > 0.0;

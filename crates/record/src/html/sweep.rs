@@ -41,8 +41,8 @@ fn header(outcome: &SweepOutcome) -> Markup {
                 p.verdict { (pass_rate(&case.passed)) " pass" }
             }
             p {
-                (outcome.samples) " samples of seed " (outcome.seed) ". Intervals are those of Clopper \
-                 and Pearson: whatever the true pass rate is, "
+                (outcome.samples) " samples of seed " (outcome.seed) ". Intervals are those of \
+                 Clopper and Pearson: whatever the true pass rate is, "
                 (significant(100.0 * outcome.confidence)) " % of sweeps enclose it, or more."
             }
         }

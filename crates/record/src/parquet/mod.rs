@@ -61,7 +61,8 @@ impl<'a> Cells<'a> {
     }
 }
 
-/// The bytes of a file with one table: its fields, and for each of `groups` the cells of each field.
+/// The bytes of a file with one table: its fields, and for each of `groups` the cells of each
+/// field.
 fn file<'g, G>(
     name: &str,
     fields: &[Field],

@@ -30,12 +30,12 @@ enum Holds<'a> {
 
 /// The bytes of `samples.parquet`.
 ///
-/// Columns: `case` (text), `sample`, `passed`, `closes` (whether the books do), `end`, `reason` (null
-/// where the flight was completed); then for each dispersed quantity `drawn NAME`, its deviation from the
-/// files, and `flown NAME [UNIT]`, the value that flew; then for each requirement `value REQUIREMENT` in its unit (null where there is
-/// none) and `holds REQUIREMENT`. A case without a quantity or requirement has nulls there. One row
-/// group for each case. Key-value metadata: `mission`, `version`, `seed`, `samples`. The same outcome
-/// gives the same bytes.
+/// Columns: `case` (text), `sample`, `passed`, `closes` (whether the books do), `end`, `reason`
+/// (null where the flight was completed); then for each dispersed quantity `drawn NAME`, its
+/// deviation from the files, and `flown NAME [UNIT]`, the value that flew; then for each
+/// requirement `value REQUIREMENT` in its unit (null where there is none) and `holds REQUIREMENT`.
+/// A case without a quantity or requirement has nulls there. One row group for each case. Key-value
+/// metadata: `mission`, `version`, `seed`, `samples`. The same outcome gives the same bytes.
 ///
 /// # Errors
 /// If the writer refuses.

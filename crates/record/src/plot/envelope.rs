@@ -1,5 +1,5 @@
-//! The momentum that a set of actuators can hold, as a solid seen from outside and cut open, with the
-//! singular surfaces inside and what tasks ask for on top.
+//! The momentum that a set of actuators can hold, as a solid seen from outside and cut open, with
+//! the singular surfaces inside and what tasks ask for on top.
 
 use std::fmt::Write;
 
@@ -65,8 +65,8 @@ struct Sheet {
     path: String,
 }
 
-/// The solid from outside, then cut open once for each kind of singular surface, as a figure. The first
-/// mesh is the outer surface, the others lie inside.
+/// The solid from outside, then cut open once for each kind of singular surface, as a figure. The
+/// first mesh is the outer surface, the others lie inside.
 pub(crate) fn envelope_figure(
     title: &str,
     meshes: &[Mesh],
@@ -105,9 +105,10 @@ fn legend(meshes: &[Mesh], paths: &[MomentumPath<'_>]) -> Markup {
     html! {
         span.swatch.outer { "what can be held at most" } " "
         @for against in inside {
-            @let rotors = if against == 1 { "one rotor".into() } else { format!("{against} rotors") };
             span class={ "swatch inner-" (against) } {
-                "singular inside, " (rotors) " against the rest"
+                "singular inside, "
+                @if against == 1 { "one rotor" } @else { (against) " rotors" }
+                " against the rest"
             }
             " "
         }

@@ -66,7 +66,8 @@ impl Histogram<'_> {
         let class = if fails { "fails" } else { "holds" };
         let width = Length((right - x - 1.0).max(1.0));
         Some(html! {
-            rect class=(class) x=(Length(x)) y=(Length(y)) width=(width) height=(Length(base - y)) {}
+            rect class=(class) x=(Length(x)) y=(Length(y)) width=(width)
+                height=(Length(base - y)) {}
         })
     }
 

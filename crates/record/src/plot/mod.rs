@@ -1,5 +1,5 @@
-//! Static figures, as SVG that needs no script: scales, ticks, the frame with its axes and limits, and
-//! how lines are told apart. Each kind of figure has a file.
+//! Static figures, as SVG that needs no script: scales, ticks, the frame with its axes and limits,
+//! and how lines are told apart. Each kind of figure has a file.
 
 use std::fmt::Write;
 
@@ -135,7 +135,8 @@ impl Frame<'_> {
         let up = y.ticks.iter().filter_map(|t| Some((t, bottom - y.scale.share(*t)? * height)));
         let upright = format!("translate(12 {:.0}) rotate(-90)", 0.5 * (top + bottom));
         html! {
-            rect.field x=(Length(left)) y=(Length(top)) width=(Length(width)) height=(Length(height)) {}
+            rect.field x=(Length(left)) y=(Length(top))
+                width=(Length(width)) height=(Length(height)) {}
             @for (value, at) in along {
                 path.grid d={ "M" (Length(at)) " " (Length(top)) "V" (Length(bottom)) } {}
                 text x=(Length(at)) y=(Length(bottom + 16.0)) text-anchor="middle" {
@@ -148,9 +149,8 @@ impl Frame<'_> {
                     (significant(*value))
                 }
             }
-            text.axis x=(Length(0.5 * (left + right))) y=(Length(bottom + 36.0)) text-anchor="middle" {
-                (x.label)
-            }
+            text.axis x=(Length(0.5 * (left + right))) y=(Length(bottom + 36.0))
+                text-anchor="middle" { (x.label) }
             @if !y.label.is_empty() {
                 text.axis transform=(upright) text-anchor="middle" { (y.label) }
             }

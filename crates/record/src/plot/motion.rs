@@ -140,7 +140,8 @@ impl View {
         self.frame.sheet("view", &format!("{} view of the motion", self.title), &content)
     }
 
-    /// The vehicle at one instant: silhouettes and edges of its boxes, arms as lines, joints as dots.
+    /// The vehicle at one instant: silhouettes and edges of its boxes, arms as lines, joints as
+    /// dots.
     fn instant(&self, snapshot: &Snapshot, strength: f64) -> Markup {
         html! {
             g opacity=(format!("{strength:.2}")) {

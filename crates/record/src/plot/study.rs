@@ -1,5 +1,5 @@
-//! The plots of a study: demand against what the sets can give, time to saturation against force, tool
-//! error against the time of a move.
+//! The plots of a study: demand against what the sets can give, time to saturation against force,
+//! tool error against the time of a move.
 
 use maud::{Markup, html};
 use wrasse_study::{SetCard, SetKind, SetVerdict, StudyOutcome, TaskOutcome};
@@ -68,8 +68,8 @@ fn against(outcome: &StudyOutcome, task: &TaskOutcome, what: &Asked) -> Option<M
     chart(&title, [Linear("time (s)"), Linear(what.axis)], &series)
 }
 
-/// How long each set lasts against a force on the tool: curves along the direction of the task with the
-/// longest lever, points for the tasks that end under load.
+/// How long each set lasts against a force on the tool: curves along the direction of the task with
+/// the longest lever, points for the tasks that end under load.
 pub(crate) fn saturation_figure(outcome: &StudyOutcome) -> Markup {
     let lasting: Vec<_> = outcome.tasks.iter().filter(|t| force(t).is_some()).collect();
     let lever = |task: &TaskOutcome| task.gathered_nm.unwrap_or(0.0) / force(task).unwrap_or(1.0);
@@ -102,9 +102,9 @@ pub(crate) fn saturation_figure(outcome: &StudyOutcome) -> Markup {
     html! {
         (figure.unwrap_or_default())
         p.hint {
-            "Curves: momentum over torque, with " (format!("{lever:.3}")) " N·m for each newton as in \
-             \u{201c}" (worst.name) "\u{201d}, up to the force whose torque the set can give. Points: \
-             the tasks that end under load. With the best steering."
+            "Curves: momentum over torque, with " (format!("{lever:.3}")) " N·m for each newton as \
+             in \u{201c}" (worst.name) "\u{201d}, up to the force whose torque the set can give. \
+             Points: the tasks that end under load. With the best steering."
         }
     }
 }

@@ -1,5 +1,5 @@
-//! The ledger in words: what it leaves unexplained, how much that is of what was in play, why there is
-//! none, what to try if it stays open.
+//! The ledger in words: what it leaves unexplained, how much that is of what was in play, why there
+//! is none, what to try if it stays open.
 
 use wrasse_mission::{CaseOutcome, End, Ledger};
 

@@ -4,7 +4,8 @@ use wrasse_sweep::{PassRate, RequirementSweep};
 
 use super::numbers::significant;
 
-/// `483 of 500 (96.6 %; with 95 % confidence 94.6 % to 98.0 %)`; without an interval where nothing varies.
+/// `483 of 500 (96.6 %; with 95 % confidence 94.6 % to 98.0 %)`; without an interval where nothing
+/// varies.
 pub(crate) fn pass_rate(rate: &PassRate) -> String {
     let percent = |share: f64| format!("{} %", significant((share * 1e5).round() * 1e-3));
     let share = format!("{} of {} ({}", rate.passed, rate.of, percent(rate.share()));

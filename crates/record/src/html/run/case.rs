@@ -88,7 +88,7 @@ fn share_of_limit(verdict: &Verdict) -> Option<Markup> {
 fn per_cent(share: f64) -> String {
     let per_cent = 100.0 * share;
     match per_cent {
-        p if p > 0.0 && p < 0.1 => "&lt; 0.1 %".to_owned(),
+        p if p > 0.0 && p < 0.1 => "< 0.1 %".to_owned(),
         p if p < 10.0 => format!("{p:.1} %"),
         p if p < 1e4 => format!("{p:.0} %"),
         _ => "> 10000 %".to_owned(),
@@ -102,7 +102,8 @@ fn plots(case: &CaseOutcome) -> Option<Markup> {
     Some(html! {
         p.hint {
             "Drag across a plot to zoom, double-click to go back; all plots follow. Click a line's \
-             name to hide it. Numbered lines are the events below."
+             name to hide it. Numbered lines are the events below, red ones the limits of \
+             requirements, with an arrow where they lie beyond the plot."
         }
         div.plots {
             p.noscript {

@@ -1,4 +1,5 @@
-//! Time histories for the page's plots, with the limits on them: thinned so that the page stays small, as JSON.
+//! Time histories for the page's plots, with the limits on them: thinned so that the page stays
+//! small, as JSON.
 
 use data_encoding::BASE64;
 use serde_json::{Value, json};

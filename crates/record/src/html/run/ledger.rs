@@ -1,4 +1,5 @@
-//! The report's section on the ledger: what was booked of momentum and energy, and what is left over.
+//! The report's section on the ledger: what was booked of momentum and energy, and what is left
+//! over.
 
 use maud::{Markup, PreEscaped, html};
 use wrasse_mission::{CaseOutcome, Ledger};
@@ -26,8 +27,8 @@ const HEAD: [&str; 13] = [
 const NAMES: [&str; 3] =
     ["Angular momentum (N·m·s)", "Linear momentum (N·s)", "Kinetic energy (J)"];
 
-const FRAMES: &str = "Vectors are in inertial axes, angular momentum is about the centre of mass of \
-     everything simulated. What the attitude actuator stores is the opposite of its entry; what \
+const FRAMES: &str = "Vectors are in inertial axes, angular momentum is about the centre of mass \
+     of everything simulated. What the attitude actuator stores is the opposite of its entry; what \
      wheels and gyros store is part of start and end, and the work on the bodies of thrusters, \
      wheels and gyros stands under the attitude actuator. Rests are the largest over the run.";
 

@@ -34,7 +34,10 @@ pub fn report_html(outcome: &Outcome) -> String {
         title: html! { (outcome.mission) " \u{2013} wrasse" },
         styles: &[UPLOT_STYLE],
         main: html! {
-            (header(outcome)) (compared(outcome, shown).unwrap_or_default()) (what_was_run(outcome)) (cases)
+            (header(outcome))
+            (compared(outcome, shown).unwrap_or_default())
+            (what_was_run(outcome))
+            (cases)
         },
         version: &outcome.version,
         scripts: html! {
@@ -203,7 +206,8 @@ fn chooser(outcome: &Outcome, shown: usize) -> Markup {
                 select {
                     @for (k, case) in outcome.cases[..shown].iter().enumerate() {
                         option value={ "case-" (k + 1) } {
-                            (if case.passed { '\u{2713}' } else { '\u{2717}' }) " " (case_name(case))
+                            (if case.passed { '\u{2713}' } else { '\u{2717}' }) " "
+                            (case_name(case))
                         }
                     }
                 }
