@@ -16,6 +16,14 @@
     });
   }
 
+  // Lines are told apart by colour and by dash; the numbers of both have no common factor.
+  const COLOURS = 8;
+  const DASHES = [[], [8, 4], [2, 3], [12, 3, 2, 3], [4, 2], [16, 4], [8, 3, 2, 3, 2, 3]];
+
+  function lineOf(k) {
+    return { stroke: colour("line-" + (1 + (k % COLOURS))), dash: DASHES[k % DASHES.length] };
+  }
+
   function colour(name) {
     return getComputedStyle(document.documentElement).getPropertyValue("--" + name).trim();
   }
@@ -40,12 +48,20 @@
     return splits.map((v) => v.toFixed(places).replace(/^-(0\.?0*)$/, "$1"));
   }
 
-  // A line that does not vary is drawn in the middle of its own plot.
-  function range(u, low, high) {
-    if (low == null) return [0, 1];
-    if (low === high) return [low - (Math.abs(low) || 1), high + (Math.abs(high) || 1)];
-    const pad = 0.06 * (high - low);
-    return [low - pad, high + pad];
+  // A line that does not vary is drawn in the middle of its own plot. A limit widens the plot, but
+  // one farther off than this many spans would squeeze the lines: it is told at the edge.
+  const FAR = 1.5;
+
+  function rangeWith(limits) {
+    return (u, low, high) => {
+      if (low == null) return [0, 1];
+      const span = high - low || 2 * (Math.abs(low) || 1);
+      const near = limits.filter((x) => x > low - FAR * span && x < high + FAR * span);
+      if (low === high && !near.length) return [low - 0.5 * span, high + 0.5 * span];
+      const [least, largest] = [Math.min(low, ...near), Math.max(high, ...near)];
+      const pad = 0.06 * (largest - least || span);
+      return [least - pad, largest + pad];
+    };
   }
 
   function widthOf(u, figures) {
@@ -83,6 +99,54 @@
     };
   }
 
+  // Limits of requirements: a line over the time in which each binds, or a word at the edge.
+  function limitLines(limits) {
+    return (u) => {
+      const { ctx, bbox } = u;
+      const ratio = uPlot.pxRatio;
+      const inside = (low, x, high) => Math.min(Math.max(x, low), high);
+      const [right, bottom] = [bbox.left + bbox.width, bbox.top + bbox.height];
+      const beyond = { above: 0, below: 0 };
+      // On paper of their own: lines and numbers of events lie below.
+      const say = (text, x, y) => {
+        ctx.save();
+        ctx.setLineDash([]);
+        ctx.lineWidth = 4 * ratio;
+        ctx.strokeStyle = colour("paper");
+        ctx.strokeText(text, x, y);
+        ctx.fillText(text, x, y);
+        ctx.restore();
+      };
+      ctx.save();
+      ctx.strokeStyle = ctx.fillStyle = colour("bad");
+      ctx.lineWidth = 1.5 * ratio;
+      ctx.setLineDash([5 * ratio, 3 * ratio]);
+      ctx.font = 10 * ratio + "px system-ui, sans-serif";
+      ctx.textAlign = "right";
+      ctx.textBaseline = "bottom";
+      limits.forEach((limit) => {
+        const scale = "unit " + limit.unit;
+        const [from, to] = [limit.from, limit.to].map((t) => inside(bbox.left, u.valToPos(t, "x", true), right));
+        const y = u.valToPos(limit.value, scale, true);
+        if (y < bbox.top || y > bottom) {
+          const side = y < bbox.top ? "above" : "below";
+          const line = 12 * ratio * (beyond[side] += limit.text ? 1 : 0);
+          const text = limit.text && limit.text + (side === "above" ? " ↑" : " ↓");
+          say(text, right - 3 * ratio, side === "above" ? bbox.top + line : bottom + 12 * ratio - line);
+          return;
+        }
+        ctx.beginPath();
+        ctx.moveTo(Math.min(from, to - 30 * ratio), y);
+        ctx.lineTo(to, y);
+        ctx.stroke();
+        // Below the line where there is no room above it.
+        const room = y - bbox.top > 14 * ratio;
+        say(limit.text, to - 3 * ratio, room ? y - 2 * ratio : y + 13 * ratio);
+      });
+      ctx.restore();
+    };
+  }
+
   function axis(scale, label, more) {
     return {
       scale, label, labelSize: 18, labelGap: 0, gap: 4,
@@ -93,27 +157,37 @@
     };
   }
 
-  function options(lines, events, width, more) {
+  function options(lines, limits, events, width, more) {
     const units = [...new Set(lines.map((line) => line.unit))];
     const axes = [axis("x", "time (s)", { size: 26 })];
     const scales = { x: { time: false } };
     units.forEach((unit, k) => {
+      const range = rangeWith(limits.filter((limit) => limit.unit === unit).map((limit) => limit.value));
       scales["unit " + unit] = { range };
       const side = k === 0 ? {} : { side: 1, grid: { show: false } };
       if (k < 2) axes.push(axis("unit " + unit, unit, { size: widthOf, ...side }));
     });
     const series = lines.map((line, k) => ({
       label: units.length > 1 ? line.label + " (" + line.unit + ")" : line.label,
-      scale: "unit " + line.unit, stroke: colour("line-" + (1 + (k % 8))), width: 1.5,
-      dash: [undefined, [6, 3], [2, 3], [8, 3, 2, 3]][Math.floor(k / 8) % 4],
+      scale: "unit " + line.unit, width: 1.5, ...lineOf(k),
       value: (u, value) => digits(value, 5), ...more,
     }));
     return {
       width, height: 250, scales, axes,
       series: [{ label: "t (s)", value: (u, value) => digits(value, 5) }, ...series],
       cursor: { sync: { key: "time" }, points: { size: 6 } },
-      hooks: { drawClear: [eventLines(events)] },
+      hooks: { drawClear: [eventLines(events)], draw: [limitLines(limits)], ready: [markLines] },
     };
+  }
+
+  // In the legend stands a piece of each line.
+  function markLines(u) {
+    u.root.querySelectorAll(".u-series:not(:first-child) .u-marker").forEach((marker, k) => {
+      const { stroke, dash } = lineOf(k);
+      marker.removeAttribute("style");
+      marker.innerHTML = '<svg width="30" height="6"><path d="M0 3H30" fill="none" stroke-width="2" stroke="'
+        + stroke + '" stroke-dasharray="' + dash.join(" ") + '"/></svg>';
+    });
   }
 
   function build(box, plot, events, width) {
@@ -128,7 +202,7 @@
     part.append(title);
     box.append(part);
     const data = [numbers(plot.time), ...plot.lines.map((line) => numbers(line.values))];
-    const chart = new uPlot(options(plot.lines, events, width || part.clientWidth), data, part);
+    const chart = new uPlot(options(plot.lines, plot.limits, events, width || part.clientWidth), data, part);
     drawn.push({ chart, part });
   }
 
@@ -145,7 +219,7 @@
     if (!lines.length) return;
     const part = document.createElement("div");
     overlaid.closest("#overlay").append(part);
-    const all = options(lines, [], width || part.clientWidth, { spanGaps: true, points: { show: false } });
+    const all = options(lines, [], [], width || part.clientWidth, { spanGaps: true, points: { show: false } });
     all.cursor.dataIdx = nearestSample;
     const chart = new uPlot(all, uPlot.join(tables), part);
     drawn.push({ chart, part });

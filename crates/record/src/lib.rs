@@ -1,44 +1,29 @@
 //! Results out: Parquet telemetry, the summary, the HTML report, the table for the terminal.
 //!
 //! Nothing here computes physics: an [`Outcome`](wrasse_mission::Outcome) goes in, files and
-//! text come out, the same bytes for the same outcome.
+//! text come out, the same bytes for the same outcome. Folders are kinds of results, each with a
+//! file for the run, the study and the sweep; `wording` is what more than one of them says.
 #![allow(clippy::format_push_string, reason = "`text += &format!(…)` reads as what it does")]
 
-mod case_sections;
-mod comparison;
-mod drawing;
-mod ledger_rests;
-mod markup;
-mod numbers;
-mod parquet_file;
+mod error;
+mod html;
+mod json;
+mod parquet;
 mod place;
-mod plots;
-mod report;
+mod plot;
 mod results;
-mod study_envelope;
-mod study_figures;
-mod study_plot;
-mod study_report;
-mod study_results;
-mod study_tables;
-mod summary;
-mod sweep_histogram;
-mod sweep_parquet;
-mod sweep_report;
-mod sweep_results;
-mod sweep_tables;
-mod tables;
+mod terminal;
+mod wording;
 
-pub use parquet_file::telemetry_parquet;
+pub use self::parquet::run::telemetry_parquet;
+pub use self::parquet::sweep::samples_parquet;
+pub use error::RecordError;
+pub use html::run::report_html;
+pub use html::study::study_html;
+pub use html::sweep::sweep_html;
+pub use json::{study_json, summary_json, sweep_json};
 pub use place::prepare_place;
-pub use report::report_html;
-pub use results::{RecordError, Written, write_results};
-pub use study_report::study_html;
-pub use study_results::{StudyWritten, study_json, write_study};
-pub use study_tables::study_table;
-pub use summary::summary_json;
-pub use sweep_parquet::samples_parquet;
-pub use sweep_report::sweep_html;
-pub use sweep_results::{SweepWritten, sweep_json, write_sweep};
-pub use sweep_tables::sweep_table;
-pub use tables::verdict_table;
+pub use results::{StudyWritten, SweepWritten, Written, write_results, write_study, write_sweep};
+pub use terminal::run::verdict_table;
+pub use terminal::study::study_table;
+pub use terminal::sweep::sweep_table;

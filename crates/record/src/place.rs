@@ -1,10 +1,10 @@
 //! Results in their place: all files of a set together, whatever ends the program.
 //!
-//! The set is written into a hidden folder beside the place, which then takes the name of the place:
-//! whoever looks sees the former set, or the new one, and never a part or a mixture. What a program that
-//! was killed left behind is put right by the next one.
+//! The set is written into a hidden folder beside the place, which then takes the name of the
+//! place: whoever looks sees the former set, or the new one, and never a part or a mixture. What a
+//! program that was killed left behind is put right by the next one.
 
-use crate::RecordError;
+use crate::error::RecordError;
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -20,8 +20,8 @@ const LOCK: &str = "lock";
 /// A folder without a lock that is older than this is a leftover.
 const YOUNG: Duration = Duration::from_mins(1);
 
-/// Sees to it that results can be put into `dir` later: for the time before a long flight. Leaves no
-/// folder that was not there, and puts right what a killed program left.
+/// Sees to it that results can be put into `dir` later: for the time before a long flight. Leaves
+/// no folder that was not there, and puts right what a killed program left.
 ///
 /// # Errors
 /// A place that cannot be written.
@@ -266,8 +266,8 @@ impl Drop for Staging {
     }
 }
 
-/// For a folder that cannot be moved: sets the former files aside, last first, then puts the new ones in
-/// their places, so that the two are never side by side.
+/// For a folder that cannot be moved: sets the former files aside, last first, then puts the new
+/// ones in their places, so that the two are never side by side.
 fn put_one_by_one(names: &[&str], staging: &Path, dir: &Path) -> Result<(), RecordError> {
     let mut aside = Vec::new();
     for name in names.iter().rev() {

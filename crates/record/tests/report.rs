@@ -3,7 +3,7 @@
 
 mod sample;
 
-use wrasse_mission::{CaseOutcome, End, Ledger, Outcome};
+use wrasse_mission::{CaseOutcome, End, EventKind, Ledger, Outcome, Verdict};
 use wrasse_record::{report_html, verdict_table};
 
 /// The page without what browsers do not read as markup: contents of scripts and styles.
@@ -89,26 +89,24 @@ fn every_anchor_that_is_linked_to_exists_once() {
 }
 
 /// 32-bit floats, little-endian, in base64.
-fn singles(base64: &str) -> Vec<f32> {
-    let digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut bytes = Vec::new();
-    for group in base64.trim_end_matches('=').as_bytes().chunks(4) {
-        let digit = |c: &u8| u32::try_from(digits.find(char::from(*c)).unwrap()).unwrap();
-        let bits = group.iter().map(digit).fold(0_u32, |bits, digit| bits << 6 | digit);
-        let bits = bits << (6 * (4 - group.len()));
-        bytes.extend_from_slice(&bits.to_be_bytes()[1..group.len()]);
-    }
+fn singles(text: &str) -> Vec<f32> {
+    let bytes = data_encoding::BASE64.decode(text.as_bytes()).unwrap();
     bytes.chunks(4).map(|four| f32::from_le_bytes(four.try_into().unwrap())).collect()
+}
+
+/// What the page's script draws.
+fn plot_data(outcome: &Outcome) -> serde_json::Value {
+    let page = report_html(outcome);
+    let start = page.find("id=\"plot-data\">").unwrap() + "id=\"plot-data\">".len();
+    let json = &page[start..start + page[start..].find("</script>").unwrap()];
+    serde_json::from_str(json).unwrap()
 }
 
 #[test]
 #[allow(clippy::cast_possible_truncation, reason = "the page holds 32-bit numbers")]
 fn the_plots_show_the_telemetry() {
     let outcome = sample::single();
-    let page = report_html(&outcome);
-    let start = page.find("id=\"plot-data\">").unwrap() + "id=\"plot-data\">".len();
-    let json = &page[start..start + page[start..].find("</script>").unwrap()];
-    let data: serde_json::Value = serde_json::from_str(json).unwrap();
+    let data = plot_data(&outcome);
     let telemetry = &outcome.cases[0].telemetry;
     let mut lines = 0;
     for plot in data[0]["plots"].as_array().unwrap() {
@@ -127,6 +125,68 @@ fn the_plots_show_the_telemetry() {
         }
     }
     assert_eq!(lines, telemetry.channels.len());
+}
+
+#[test]
+fn a_limit_stands_in_the_plot_of_its_quantity_while_it_binds() {
+    let mut outcome = sample::single();
+    let case = &mut outcome.cases[0];
+    case.events.iter_mut().for_each(|e| e.text = e.text.replace(" begins", ""));
+    case.events[2].kind = EventKind::Limit;
+    let mut limit = |requirement: &str, limit, unit: &str| {
+        let verdict = Verdict {
+            requirement: requirement.into(),
+            limit,
+            unit: unit.into(),
+            ..case.verdicts[0].clone()
+        };
+        case.verdicts.push(verdict);
+    };
+    limit("tool.error.max <= 0.3 mm", 0.3, "mm");
+    limit("energy.kinetic.final <= 2 J", 2.0, "J");
+    limit("joint.joint2.torque.max <= 5 Nm during reach", 5.0, "Nm");
+    limit("energy.power.max <= 2 N", 2.0, "N");
+    let data = plot_data(&outcome);
+    let plots = data[0]["plots"].as_array().unwrap().iter();
+    let limits: Vec<_> = plots.flat_map(|plot| plot["limits"].as_array().unwrap()).collect();
+    let told = |text: &str, value: f64, unit: &str, from: f64, to: f64| serde_json::json!({ "text": text, "value": value, "unit": unit, "from": from, "to": to });
+    // A length in the unit of its channel; both signs where the channel has both; the end alone for what
+    // is judged there; one phase; nothing where the units do not measure the same.
+    let wanted = [
+        told("max <= 0.3 mm", 0.3 * 1e-3, "m", 0.0, 24.0),
+        told("", -0.3 * 1e-3, "m", 0.0, 24.0),
+        told("max <= 5 Nm during reach", 5.0, "N·m", 2.0, 22.0),
+        told("", -5.0, "N·m", 2.0, 22.0),
+        told("final <= 2 J", 2.0, "J", 24.0, 24.0),
+    ];
+    assert_eq!(limits, wanted.iter().collect::<Vec<_>>());
+}
+
+#[test]
+fn verdicts_stay_in_sight_while_a_wide_table_scrolls() {
+    let page = report_html(&sample::compared());
+    assert!(page.contains(".kept { position: sticky; left: 0; right: 0;"));
+    let markup = markup_only(&page);
+    let document = roxmltree::Document::parse(&markup).unwrap();
+    let mut marks = 0;
+    for table in document.descendants().filter(|node| node.has_tag_name("table")) {
+        let is_mark =
+            |n: &roxmltree::Node<'_, '_>| matches!(n.attribute("class"), Some("pass" | "fail"));
+        for mark in table.descendants().filter(is_mark) {
+            assert_eq!(mark.parent().unwrap().attribute("class"), Some("kept"));
+            marks += 1;
+        }
+    }
+    // Nine cases in the table that compares them, five requirements of each.
+    assert_eq!(marks, 9 + 9 * 5);
+}
+
+#[test]
+fn text_is_escaped_once() {
+    let mut outcome = sample::single();
+    outcome.cases[0].verdicts[0].value = Some(1e-9);
+    let markup = check_well_formed(&outcome);
+    assert!(markup.contains("> &lt; 0.1 %</td>") && !markup.contains("&amp;lt;"));
 }
 
 #[test]

@@ -1,18 +1,12 @@
-//! The verdicts as plain text, for the terminal.
+//! The verdicts of a run as plain text.
 
-use wrasse_document::visible;
-use wrasse_mission::{CaseOutcome, End, Event, EventKind, Ledger, Outcome, Verdict};
+use wrasse_mission::{CaseOutcome, Event, EventKind, Ledger, Outcome, Verdict};
 
-use crate::comparison::{Comparison, case_name, comparison, judged, reason};
-use crate::ledger_rests::{Rest, ledger_rests};
-use crate::numbers::{beside_limit, power, significant};
-
-/// How a column stands.
-#[derive(Clone, Copy, PartialEq)]
-pub(crate) enum Side {
-    Left,
-    Right,
-}
+use super::{Side, aligned, printable};
+use crate::wording::cases::{case_name, judged, reason};
+use crate::wording::comparison::{Comparison, comparison};
+use crate::wording::ledger::{OPEN, Rest, ledger_rests, no_ledger};
+use crate::wording::numbers::{beside_limit, power, significant};
 
 /// Verdicts, the end if it came early, and the ledger in a line each for momentum and energy;
 /// for a mission that compares cases, one table with a row for each.
@@ -36,15 +30,6 @@ fn single(case: &CaseOutcome) -> String {
         Some(why) => format!("{why}\n"),
     };
     text + &integration_error(case)
-}
-
-/// Why there is no ledger, where nothing moved or numbers were lost.
-pub(crate) fn no_ledger(case: &CaseOutcome) -> Option<&'static str> {
-    match case.end {
-        End::Infeasible { .. } => Some("nothing moved: there is no ledger"),
-        End::Breakdown { .. } => Some("numbers broke down: there is no ledger"),
-        End::Completed | End::Stopped { .. } => None,
-    }
 }
 
 /// Most limits, or cases, that are told one by one.
@@ -200,10 +185,6 @@ fn worst_ledger(cases: &[CaseOutcome]) -> Option<&CaseOutcome> {
     flown.reduce(|worst, case| if share(case) > share(worst) { case } else { worst })
 }
 
-/// What to try when the ledger does not close.
-pub(crate) const OPEN: &str = "          an open ledger fails the run; a smaller world.step_s closes it if the \
-                    integration is the reason\n";
-
 /// One line for momentum and one for energy.
 fn ledger_lines(ledger: &Ledger, whose: &str) -> String {
     let [angular, linear, energy] = ledger_rests(ledger);
@@ -232,48 +213,4 @@ fn ledger_lines(ledger: &Ledger, whose: &str) -> String {
         significant(ledger.work_from_outside),
         significant(ledger.energy_at_grasps),
     )
-}
-
-/// Rows of cells in columns that line up, two spaces apart.
-pub(crate) fn aligned(rows: &[Vec<String>], sides: &[Side]) -> String {
-    let rows: Vec<Vec<String>> =
-        rows.iter().map(|row| row.iter().map(|cell| printable(cell)).collect()).collect();
-    let width =
-        |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..sides.len()).map(width).collect();
-    let mut text = String::new();
-    for row in &rows {
-        let mut line = String::new();
-        for ((cell, side), &width) in row.iter().zip(sides).zip(&widths) {
-            line += &match side {
-                Side::Left => format!("{cell:<width$}  "),
-                Side::Right => format!("{cell:>width$}  "),
-            };
-        }
-        text += line.trim_end();
-        text.push('\n');
-    }
-    text
-}
-
-/// Without characters that a terminal obeys: a name in a file is not to move the cursor.
-pub(crate) fn printable(text: &str) -> String {
-    visible(text).into_owned()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn columns_line_up_whatever_their_cells_are() {
-        let rows = [["a", "1"], ["längere·name", "-12.5"], ["x\u{1b}[2J", "3e-7"]];
-        let rows: Vec<_> = rows.iter().map(|row| row.map(String::from).to_vec()).collect();
-        assert_eq!(
-            aligned(&rows, &[Side::Left, Side::Right]),
-            "a                 1\n\
-             längere·name  -12.5\n\
-             x\\u{1b}[2J     3e-7\n"
-        );
-    }
 }

@@ -2,8 +2,9 @@
 
 use wrasse_study::{Answer, SetCard, SetVerdict, StudyOutcome, TaskOutcome};
 
-use crate::numbers::{FINEST, beside_largest, counted, error, pace, rounded};
-use crate::tables::{OPEN, Side, aligned, printable};
+use super::{Side, aligned, printable};
+use crate::wording::ledger::OPEN;
+use crate::wording::numbers::{FINEST, beside_largest, counted, error, pace, rounded};
 
 /// Tasks up to which each set gets its own line; more are shown as a matrix.
 const CLOSELY: usize = 2;

@@ -1,6 +1,20 @@
-//! What momentum and energy leave unexplained, and how much that is of what was in play.
+//! The ledger in words: what it leaves unexplained, how much that is of what was in play, why there
+//! is none, what to try if it stays open.
 
-use wrasse_mission::Ledger;
+use wrasse_mission::{CaseOutcome, End, Ledger};
+
+/// What to try when the ledger does not close.
+pub(crate) const OPEN: &str = "          an open ledger fails the run; a smaller world.step_s closes it if the \
+                    integration is the reason\n";
+
+/// Why there is no ledger, where nothing moved or numbers were lost.
+pub(crate) fn no_ledger(case: &CaseOutcome) -> Option<&'static str> {
+    match case.end {
+        End::Infeasible { .. } => Some("nothing moved: there is no ledger"),
+        End::Breakdown { .. } => Some("numbers broke down: there is no ledger"),
+        End::Completed | End::Stopped { .. } => None,
+    }
+}
 
 /// What one line of the ledger leaves unexplained.
 pub(crate) struct Rest {

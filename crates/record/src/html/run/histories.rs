@@ -1,25 +1,28 @@
-//! Time histories for the page's plots: thinned so that the page stays small, as JSON.
+//! Time histories for the page's plots, with the limits on them: thinned so that the page stays
+//! small, as JSON.
 
+use data_encoding::BASE64;
 use serde_json::{Value, json};
 use wrasse_mission::{CaseOutcome, Channel, Telemetry};
 
-use crate::case_sections::EVENTS;
-use crate::comparison::case_name;
+use super::case::EVENTS;
+use super::limits::limits;
+use crate::wording::cases::case_name;
 
 /// Numbers that one page carries. Each takes 16/3 characters, so this is about 2.2 MB.
-pub(crate) const NUMBERS: usize = 420_000;
+pub(super) const NUMBERS: usize = 420_000;
 /// Most samples of one line: more than a screen has columns.
 const MOST_SAMPLES: usize = 3000;
 /// With fewer samples than this a line says little; rather fewer cases are drawn then.
-pub(crate) const FEWEST_SAMPLES: usize = 100;
+pub(super) const FEWEST_SAMPLES: usize = 100;
 
 /// How many numbers a sample of this case's plots holds: its channels, and a time for each plot.
-pub(crate) fn numbers_per_sample(case: &CaseOutcome) -> usize {
+pub(super) fn numbers_per_sample(case: &CaseOutcome) -> usize {
     case.telemetry.channels.len() + plot_names(&case.telemetry).len()
 }
 
 /// What the page's script draws: for each case its events and plots, values in base64.
-pub(crate) fn plot_data(cases: &[CaseOutcome]) -> Value {
+pub(super) fn histories(cases: &[CaseOutcome]) -> Value {
     let per_sample: usize = cases.iter().map(numbers_per_sample).sum();
     let most = (NUMBERS / per_sample.max(1)).clamp(2, MOST_SAMPLES);
     Value::Array(cases.iter().map(|case| case_data(case, most)).collect())
@@ -28,7 +31,7 @@ pub(crate) fn plot_data(cases: &[CaseOutcome]) -> Value {
 fn case_data(case: &CaseOutcome, most: usize) -> Value {
     let events: Vec<_> = case.events.iter().take(EVENTS).map(|event| event.time_s).collect();
     let names = plot_names(&case.telemetry);
-    let plots: Vec<_> = names.iter().map(|name| plot(&case.telemetry, name, most)).collect();
+    let plots: Vec<_> = names.iter().map(|name| plot(case, name, most)).collect();
     json!({ "name": case_name(case), "events": events, "plots": plots })
 }
 
@@ -43,7 +46,8 @@ fn plot_names(telemetry: &Telemetry) -> Vec<&str> {
     names
 }
 
-fn plot(telemetry: &Telemetry, name: &str, most: usize) -> Value {
+fn plot(case: &CaseOutcome, name: &str, most: usize) -> Value {
+    let telemetry = &case.telemetry;
     let channels: Vec<&Channel> = telemetry.channels.iter().filter(|c| c.plot == name).collect();
     let kept = kept_samples(telemetry.time.len(), &channels, most);
     let lines: Vec<_> = channels
@@ -63,6 +67,7 @@ fn plot(telemetry: &Telemetry, name: &str, most: usize) -> Value {
         "drawn": kept.len(),
         "time": singles(&kept, &telemetry.time),
         "lines": lines,
+        "limits": limits(case, &channels),
     })
 }
 
@@ -113,37 +118,12 @@ fn singles(kept: &[usize], values: &[f64]) -> String {
     #[allow(clippy::cast_possible_truncation, reason = "a plot needs no more than 7 digits")]
     let single = |sample: &usize| values.get(*sample).map_or(f32::NAN, |value| *value as f32);
     let bytes: Vec<u8> = kept.iter().flat_map(|sample| single(sample).to_le_bytes()).collect();
-    base64(&bytes)
-}
-
-/// Base64 of RFC 4648, section 4.
-fn base64(bytes: &[u8]) -> String {
-    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for group in bytes.chunks(3) {
-        let byte = |k: usize| u32::from(group.get(k).copied().unwrap_or(0));
-        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for k in 0..4 {
-            let digit = DIGITS[(bits >> (18 - 6 * k) & 63) as usize];
-            text.push(if k <= group.len() { char::from(digit) } else { '=' });
-        }
-    }
-    text
+    BASE64.encode(&bytes)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn base64_is_that_of_the_rfc() {
-        // RFC 4648, section 10.
-        let vectors =
-            [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foob", "Zm9vYg==")];
-        for (plain, coded) in vectors {
-            assert_eq!(base64(plain.as_bytes()), coded);
-        }
-    }
 
     #[test]
     fn thinning_keeps_the_ends_and_a_peak_one_sample_long() {

@@ -1,12 +1,14 @@
-//! The momentum that a set of actuators can hold, as a solid seen from outside and cut open, with the
-//! singular surfaces inside and what tasks ask for on top.
+//! The momentum that a set of actuators can hold, as a solid seen from outside and cut open, with
+//! the singular surfaces inside and what tasks ask for on top.
 
+use std::fmt::Write;
+
+use maud::{Markup, html};
 use wrasse_spatial::{Real, Vec3, vec3};
 use wrasse_study::Mesh;
 
-use crate::drawing::{marks, step};
-use crate::markup::escaped;
-use crate::numbers::significant;
+use super::{Length, Line, corners, multiples, step};
+use crate::wording::numbers::significant;
 
 /// Half the width of a view (SVG units; ten to a pixel, so that figures are whole).
 const HALF: f64 = 2300.0;
@@ -16,6 +18,8 @@ const REACH: f64 = 1650.0;
 const NAME: f64 = 480.0;
 const FIGURE: f64 = 230.0;
 const LINE: f64 = 110.0;
+/// Most figures on an axis.
+const TICKS: f64 = 6.5;
 /// Azimuth and elevation of the eye (rad).
 const EYE: [f64; 2] = [-0.95, 0.42];
 /// Shades from away from the light to facing it.
@@ -61,12 +65,13 @@ struct Sheet {
     path: String,
 }
 
-/// The solid from outside, then cut open once for each kind of singular surface, as a figure. The first mesh is the outer surface, the others lie inside.
+/// The solid from outside, then cut open once for each kind of singular surface, as a figure. The
+/// first mesh is the outer surface, the others lie inside.
 pub(crate) fn envelope_figure(
     title: &str,
     meshes: &[Mesh],
     paths: &[MomentumPath<'_>],
-) -> Option<String> {
+) -> Option<Markup> {
     let reached = meshes.iter().flat_map(|mesh| &mesh.points).map(|p| p.norm());
     let size = reached.fold(0.0, f64::max);
     if size <= 0.0 || !size.is_finite() {
@@ -79,60 +84,72 @@ pub(crate) fn envelope_figure(
         1 => (String::from("Cut open: one rotor against the rest"), against),
         _ => (format!("Cut open: {against} rotors against the rest"), against),
     });
-    let views = looks.map(|(name, against)| {
-        let shown: Vec<_> =
-            meshes.iter().filter(|m| m.against == 0 || m.against == against).collect();
-        format!(
-            "<div><p class=\"view\">{name}</p>\n{}</div>\n",
-            svg(&view, &name, &shown, paths, size)
-        )
-    });
-    let views: Vec<_> = views.collect();
-    Some(format!(
-        "<figure class=\"envelope\"><div class=\"views\">{}</div>\n<figcaption>{} {}</figcaption></figure>\n",
-        views.concat(),
-        escaped(title),
-        legend(meshes, paths)
-    ))
+    let shown = |against: u32| -> Vec<&Mesh> {
+        meshes.iter().filter(|m| m.against == 0 || m.against == against).collect()
+    };
+    Some(html! {
+        figure.envelope {
+            div.views {
+                @for (name, against) in looks {
+                    div { p.view { (name) } (sheet(&view, &name, &shown(against), paths, size)) }
+                }
+            }
+            figcaption { (title) " " (legend(meshes, paths)) }
+        }
+    })
 }
 
-/// What the colours are.
-fn legend(meshes: &[Mesh], paths: &[MomentumPath<'_>]) -> String {
-    let mut keys = vec![(String::from("outer"), String::from("what can be held at most"))];
-    for against in [1, 2, 3, 4] {
-        if meshes.iter().any(|mesh| mesh.against == against) {
-            let rotors = if against == 1 { "one rotor" } else { "rotors" };
-            let count = if against == 1 { String::new() } else { format!("{against} ") };
-            let text = format!("singular inside, {count}{rotors} against the rest");
-            keys.push((format!("inner-{against}"), text));
+/// What the colours and dashes are.
+fn legend(meshes: &[Mesh], paths: &[MomentumPath<'_>]) -> Markup {
+    let inside = [1, 2, 3, 4].into_iter().filter(|k| meshes.iter().any(|mesh| mesh.against == *k));
+    html! {
+        span.swatch.outer { "what can be held at most" } " "
+        @for against in inside {
+            span class={ "swatch inner-" (against) } {
+                "singular inside, "
+                @if against == 1 { "one rotor" } @else { (against) " rotors" }
+                " against the rest"
+            }
+            " "
+        }
+        @for (k, path) in paths.iter().enumerate() {
+            (line(k).key(&format!("asked for: {}", path.name)))
         }
     }
-    for (k, path) in paths.iter().enumerate() {
-        keys.push((format!("asked line-{}", 1 + k % 8), format!("asked for: {}", path.name)));
-    }
-    let keys = keys
-        .iter()
-        .map(|(class, text)| format!("<span class=\"swatch {class}\">{}</span> ", escaped(text)));
-    keys.collect()
 }
 
-fn svg(view: &View, name: &str, meshes: &[&Mesh], paths: &[MomentumPath<'_>], size: f64) -> String {
+/// The line of the k-th path.
+fn line(k: usize) -> Line {
+    if k == 0 { Line::FIRST } else { Line::nth(k - 1) }
+}
+
+fn sheet(
+    view: &View,
+    name: &str,
+    meshes: &[&Mesh],
+    paths: &[MomentumPath<'_>],
+    size: f64,
+) -> Markup {
     // Only what lies inside needs the cut.
     let open = meshes.iter().any(|mesh| mesh.against > 0);
     let mut sheets: Vec<Sheet> = meshes.iter().flat_map(|mesh| sheets(view, mesh, open)).collect();
     // Farthest first; equal depths stay in the order of the meshes.
     sheets.sort_by(|a, b| a.depth.total_cmp(&b.depth));
     let side = 2.0 * HALF;
-    let mut svg = format!(
-        "<svg viewBox=\"0 0 {side} {side}\" role=\"img\" aria-label=\"{}: momentum that can be held\">\n",
-        escaped(name)
-    );
-    svg += &axes(view, size);
-    svg += &joined(&sheets);
-    for (k, path) in paths.iter().enumerate() {
-        svg += &asked(view, path, k);
+    html! {
+        svg viewBox={ "0 0 " (format!("{side} {side}")) } role="img"
+            aria-label={ (name) ": momentum that can be held" } {
+            (axes(view, size))
+            // Neighbours in the order of drawing that look alike become one path.
+            @for group in sheets.chunk_by(|a, b| a.class == b.class) {
+                @let path: String = group.iter().map(|sheet| sheet.path.as_str()).collect();
+                path class=(group[0].class) d=(path) {}
+            }
+            @for (k, path) in paths.iter().enumerate() {
+                (asked(view, path, line(k)).unwrap_or_default())
+            }
+        }
     }
-    svg + "</svg>"
 }
 
 /// Faces of a surface.
@@ -175,53 +192,35 @@ fn outline(view: &View, corners: &[Vec3<f64>]) -> String {
     for (k, corner) in corners.iter().enumerate() {
         let at = view.place(*corner).map(|x| x.round() as i64);
         let letter = if k == 0 { 'M' } else { 'l' };
-        path += &format!("{letter}{} {}", at[0] - from[0], at[1] - from[1]);
+        let _ = write!(path, "{letter}{} {}", at[0] - from[0], at[1] - from[1]);
         from = at;
     }
     path + "z"
 }
 
-/// Neighbours in the order of drawing that look alike become one path.
-fn joined(sheets: &[Sheet]) -> String {
-    let mut svg = String::new();
-    for group in sheets.chunk_by(|a, b| a.class == b.class) {
-        let paths: String = group.iter().map(|sheet| sheet.path.as_str()).collect();
-        svg += &format!("<path class=\"{}\" d=\"{paths}\"/>\n", group[0].class);
-    }
-    svg
-}
-
 /// The three axes from end to end, with their figures.
-fn axes(view: &View, size: f64) -> String {
-    let mut svg = String::new();
+fn axes(view: &View, size: f64) -> Markup {
     let far = 1.16 * size;
-    let step = step(3.2 * size);
+    let step = step(2.0 * far, TICKS);
     let units = [vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0)];
-    for (name, unit) in ["x", "y", "z"].iter().zip(units) {
-        let ([x, y], [to_x, to_y]) = (view.place(unit * -far), view.place(unit * far));
-        svg += &format!("<path class=\"axle\" d=\"M{x:.0} {y:.0}L{to_x:.0} {to_y:.0}\"/>");
-        let [x, y] = view.place(unit * (1.23 * size));
-        // The name of an upright axis stands on its end, others begin there.
-        let label = if x > HALF + 1.0 { [x, y] } else { [x - 0.5 * NAME, y] };
-        svg += &format!(
-            "<text class=\"axis\" x=\"{:.0}\" y=\"{y:.0}\">{name} (N·m·s)</text>\n",
-            label[0]
-        );
-        for value in marks(-far, far, step).filter(|value| value.abs() > 0.5 * step) {
-            let [x, y] = view.place(unit * value);
-            svg += &format!("<circle class=\"tick\" cx=\"{x:.0}\" cy=\"{y:.0}\" r=\"14\"/>\n");
-            let at = [x + 30.0, y + 100.0];
-            if !is_under(label, at) {
-                svg += &format!(
-                    "<text class=\"figure\" x=\"{:.0}\" y=\"{:.0}\">{}</text>\n",
-                    at[0],
-                    at[1],
-                    significant(value)
-                );
+    html! {
+        @for (name, unit) in ["x", "y", "z"].iter().zip(units) {
+            @let end = view.place(unit * (1.23 * size));
+            // The name of an upright axis stands on its end, others begin there.
+            @let name_x = if end[0] > HALF + 1.0 { end[0] } else { end[0] - 0.5 * NAME };
+            @let [from, to] = [-far, far].map(|x| view.place(unit * x));
+            polyline.axle points=(corners(&[from, to])) {}
+            text.axis x=(Length(name_x)) y=(Length(end[1])) { (name) " (N·m·s)" }
+            @for value in multiples(-far, far, step).into_iter().filter(|v| v.abs() > 0.5 * step) {
+                @let [x, y] = view.place(unit * value);
+                @let at = [x + 30.0, y + 100.0];
+                circle.tick cx=(Length(x)) cy=(Length(y)) r="14" {}
+                @if !is_under([name_x, end[1]], at) {
+                    text.figure x=(Length(at[0])) y=(Length(at[1])) { (significant(value)) }
+                }
             }
         }
     }
-    svg
 }
 
 /// Whether a figure that begins here would touch the name of an axis that begins there.
@@ -230,16 +229,14 @@ fn is_under([x, y]: [f64; 2], figure: [f64; 2]) -> bool {
 }
 
 /// What a task asks for, as a line from its first to its last point.
-fn asked(view: &View, path: &MomentumPath<'_>, k: usize) -> String {
-    let line = 1 + k % 8;
+fn asked(view: &View, path: &MomentumPath<'_>, line: Line) -> Option<Markup> {
     let points: Vec<_> = path.points.iter().map(|p| view.place(*p)).collect();
-    let Some([x, y]) = points.last() else { return String::new() };
-    let text: Vec<_> = points.iter().map(|[x, y]| format!("{x:.0},{y:.0}")).collect();
-    format!(
-        "<polyline class=\"asked line-{line}\" points=\"{}\"/>\
-         <circle class=\"asked line-{line}\" cx=\"{x:.0}\" cy=\"{y:.0}\" r=\"30\"/>\n",
-        text.join(" ")
-    )
+    let [x, y] = *points.last()?;
+    let colour = line.colour();
+    Some(html! {
+        polyline class={ "asked " (colour) " " (line.dash()) } points=(corners(&points)) {}
+        circle class={ "asked " (colour) } cx=(Length(x)) cy=(Length(y)) r="30" {}
+    })
 }
 
 #[cfg(test)]
@@ -265,7 +262,7 @@ mod tests {
         let meshes = singular_surfaces(&pyramid(), 12);
         let points = [Vec3::zero(), vec3(90.0, 0.0, 0.0)];
         let path = MomentumPath { name: "a <task>", points: &points };
-        let figure = envelope_figure("Four gyros", &meshes, &[path]).unwrap();
+        let figure = envelope_figure("Four gyros", &meshes, &[path]).unwrap().0;
         assert!(figure.contains("a &lt;task&gt;") && !figure.contains("NaN"));
         let views: Vec<_> = figure.split("<svg").skip(1).collect();
         let outer = |view: &str| view.split("class=\"outer").skip(1).map(faces).sum::<usize>();
@@ -276,7 +273,7 @@ mod tests {
     }
 
     fn faces(group: &str) -> usize {
-        group.split("/>").next().unwrap_or_default().matches('z').count()
+        group.split("</path>").next().unwrap_or_default().matches('z').count()
     }
 
     #[test]
@@ -291,7 +288,7 @@ mod tests {
             texts.map(|text| [number(text, " x=\""), number(text, " y=\"")]).collect()
         };
         for size in [47.0, 49.0, 131.0, 245.0, 408.0, 816.0] {
-            let svg = axes(&View::new(size), size);
+            let svg = axes(&View::new(size), size).0;
             let (names, figures) = (starts(&svg, "axis"), starts(&svg, "figure"));
             assert!(names.len() == 3 && figures.len() >= 6, "{size}: {svg}");
             for [x, y] in names {

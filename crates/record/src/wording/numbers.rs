@@ -24,7 +24,8 @@ pub(crate) fn beside_limit(value: f64, limit: f64) -> String {
     if value != limit && short == significant(limit) { value.to_string() } else { short }
 }
 
-/// Two significant digits with an exponent, for bounds and ratios of which the power of ten is what matters.
+/// Two significant digits with an exponent, for bounds and ratios of which the power of ten is what
+/// matters.
 pub(crate) fn power(value: f64) -> String {
     if value == 0.0 { "0".to_owned() } else { format!("{value:.1e}") }
 }

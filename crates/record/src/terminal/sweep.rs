@@ -1,10 +1,11 @@
 //! A sweep as plain text, for the terminal.
 
-use wrasse_sweep::{CaseSweep, Drawn, PassRate, RequirementSweep, SweepOutcome};
+use wrasse_sweep::{CaseSweep, Drawn, RequirementSweep, SweepOutcome};
 
-use crate::comparison::name_of;
-use crate::numbers::significant;
-use crate::tables::{Side, aligned, printable};
+use super::{Side, aligned, printable};
+use crate::wording::cases::name_of;
+use crate::wording::numbers::significant;
+use crate::wording::sweep::{figures, pass_rate};
 
 /// Pass rates, percentiles and the worst sample of each requirement, case by case.
 pub fn sweep_table(outcome: &SweepOutcome) -> String {
@@ -49,21 +50,6 @@ fn of_case(case: &CaseSweep) -> String {
     text
 }
 
-/// `483 of 500 (96.6 %; with 95 % confidence 94.6 % to 98.0 %)`; without an interval where nothing varies.
-pub(crate) fn pass_rate(rate: &PassRate) -> String {
-    let percent = |share: f64| format!("{} %", significant((share * 1e5).round() * 1e-3));
-    let share = format!("{} of {} ({}", rate.passed, rate.of, percent(rate.share()));
-    match rate.interval {
-        Some([low, high]) => format!(
-            "{share}; with {} confidence {} to {})",
-            percent(wrasse_sweep::CONFIDENCE),
-            percent(low),
-            percent(high)
-        ),
-        None => format!("{share}; nothing varies, so there is no confidence to state)"),
-    }
-}
-
 /// The values flown of what was drawn.
 fn drawn(all: &[Drawn]) -> String {
     if all.is_empty() {
@@ -104,12 +90,4 @@ fn requirements(all: &[RequirementSweep]) -> String {
     sides.extend([Side::Right; 7]);
     sides.push(Side::Left);
     aligned(&rows, &sides)
-}
-
-/// Least value, percentiles, largest value.
-pub(crate) fn figures(requirement: &RequirementSweep) -> [String; 7] {
-    match &requirement.values {
-        None => std::array::from_fn(|_| "-".to_owned()),
-        Some(v) => [v.min, v.p1, v.p5, v.p50, v.p95, v.p99, v.max].map(significant),
-    }
 }
