@@ -36,7 +36,7 @@ pub enum Actuation<T> {
     None,
     /// An ideal actuator, within limits if it has them.
     Ideal(Option<AttitudeActuator<T>>),
-    /// Wheels, gyros and thrusters, and how they are steered.
+    /// Wheels, CMGs and thrusters, and how they are steered.
     Fitted(SteeringSetup<T>),
 }
 
@@ -54,7 +54,7 @@ impl<T> Actuation<T> {
     pub(crate) fn answers_at_once(&self) -> bool {
         self.steering().is_none_or(|steering| {
             let actuators = &steering.actuators;
-            !actuators.wheels.is_empty() || !actuators.gyros.is_empty()
+            !actuators.wheels.is_empty() || !actuators.cmgs.is_empty()
         })
     }
 }

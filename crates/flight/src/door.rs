@@ -73,7 +73,7 @@ pub struct Command<T, const J: usize> {
     /// Torque that the base should feel over the period, base axes (N·m): what an ideal actuator is
     /// told, and what the steering has to give.
     pub attitude_torque_B: Vec3<T>,
-    /// What wheels, gyros and thrusters are told.
+    /// What wheels, CMGs and thrusters are told.
     pub actuators: ActuatorCommand<T>,
     /// What the steering could do of what was wanted.
     pub steering: SteeringReport<T>,

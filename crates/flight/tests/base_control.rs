@@ -12,7 +12,7 @@ mod bench;
 #[allow(dead_code, reason = "the laws ask more of the same flights")]
 mod flights;
 
-use bench::{actuators, gyros, thrusters};
+use bench::{actuators, cmgs, thrusters};
 use flights::{PERIOD, aside, at_rest, drifting, robot, setup};
 use wrasse_dynamics::{Robot, State, kinematics, mass_matrix, momentum};
 use wrasse_flight::steering::SteeringSetup;
@@ -63,7 +63,7 @@ fn pushed(state: &State<f64, 7>, by_N: Vec3<f64>) -> State<f64, 7> {
 /// base axes, nothing else. Measured 3.1e-15 N off, of 20.
 #[test]
 fn the_centre_of_mass_is_pulled_home_and_braked() {
-    let all = actuators(&[], &gyros(), &thrusters(22.0));
+    let all = actuators(&[], &cmgs(), &thrusters(22.0));
     let mut computer = FlightComputer::new(with(&all, Some(HOLD)), &robot(), &held());
     let first = step(&mut computer, &at_rest(), None);
     assert!(first.steering.wanted.force.norm() < 1e-12, "at home");
@@ -83,7 +83,7 @@ fn the_centre_of_mass_is_pulled_home_and_braked() {
 /// push. Measured no force at all.
 #[test]
 fn a_release_does_not_move_the_home() {
-    let all = actuators(&[], &gyros(), &thrusters(22.0));
+    let all = actuators(&[], &cmgs(), &thrusters(22.0));
     let mut computer = FlightComputer::new(with(&all, Some(HOLD)), &robot(), &held());
     let empty = arms::atlas_class().0;
     let state = at_rest();
@@ -107,7 +107,7 @@ fn centre_of_mass(robot: &Robot<f64, 7>, state: &State<f64, 7>) -> Vec3<f64> {
 /// What the force-torque sensor feels is stood against by joints and base, on top of all else.
 #[test]
 fn a_felt_wrench_reaches_joints_and_base() {
-    let setup = with(&actuators(&[], &gyros(), &[]), None);
+    let setup = with(&actuators(&[], &cmgs(), &[]), None);
     let mut ideal = setup;
     ideal.base.actuation = Actuation::Ideal(None);
     let F_E = SpatialForce::new(vec3(3.0, -7.0, 5.0), vec3(40.0, 200.0, -90.0));
@@ -133,8 +133,8 @@ fn a_felt_wrench_reaches_joints_and_base() {
     }
 }
 
-/// What gyros store of a tool move when they do as they are told, in either precision.
-fn gyro_angles<T: Scalar>(
+/// What CMGs store of a tool move when they do as they are told, in either precision.
+fn cmg_angles<T: Scalar>(
     setup: Setup<T, 7>,
     start: State<T, 7>,
     phases: &[Phase<T, 7>],
@@ -156,7 +156,7 @@ fn gyro_angles<T: Scalar>(
 /// measured up to 5.5e-5 rad aside.
 #[test]
 fn single_precision_turns_the_gimbals_alike() {
-    let all = actuators(&[], &gyros(), &[]);
+    let all = actuators(&[], &cmgs(), &[]);
     let wide = with(&all, None);
     let mut narrow = setup::<f32>(ArmLaw::AttitudeHeld, Measurement::Base);
     let quat_ND = wide.base.quat_ND;
@@ -170,8 +170,8 @@ fn single_precision_turns_the_gimbals_alike() {
         q: start.q.map(<f32 as Real>::from_f64),
         v: [0.0; 7],
     };
-    let wide = gyro_angles(wide, start, &[aside(Axes::Inertial, 2.0)]);
-    let narrow = gyro_angles(narrow, single_start, &[aside(Axes::Inertial, 2.0_f32)]);
+    let wide = cmg_angles(wide, start, &[aside(Axes::Inertial, 2.0)]);
+    let narrow = cmg_angles(narrow, single_start, &[aside(Axes::Inertial, 2.0_f32)]);
     assert_eq!((wide.len(), narrow.len()), (200, 200));
     let (mut turned, mut apart) = (0.0_f64, 0.0_f64);
     for (wide, narrow) in wide.iter().zip(&narrow) {
@@ -191,7 +191,7 @@ fn single(of: &SteeringSetup<f64>) -> SteeringSetup<f32> {
     SteeringSetup {
         actuators: of.actuators.cast(),
         wheels: wrasse_flight::steering::WheelLaw::default(),
-        gyros: wrasse_flight::steering::GyroLaw::default(),
+        cmgs: wrasse_flight::steering::CmgLaw::default(),
         modulation: wrasse_flight::steering::Modulation {
             gain: c(m.gain),
             lag: c(m.lag),
@@ -204,11 +204,11 @@ fn single(of: &SteeringSetup<f64>) -> SteeringSetup<f32> {
 }
 
 /// Gimbals in closed loop with a base that turns as they make it: an error of attitude dies out. The
-/// sign of the torque through attitude law, steering, gyros and back is right, or it would grow.
+/// sign of the torque through attitude law, steering, CMGs and back is right, or it would grow.
 /// With bandwidth ω and critical damping `(1 + ωt) e^(-ωt)` is left: 0.0611 after 15 s. Measured 0.0612.
 #[test]
-fn an_error_of_attitude_dies_out_by_gyros() {
-    let all = actuators(&[], &gyros(), &[]);
+fn an_error_of_attitude_dies_out_by_cmgs() {
+    let all = actuators(&[], &cmgs(), &[]);
     let mut computer = FlightComputer::new(
         with(&all, None),
         &robot(),
@@ -226,11 +226,11 @@ fn an_error_of_attitude_dies_out_by_gyros() {
         .central();
     for _ in 0..1500 {
         let told = computer.step(&Sensed::perfect(&state, readings)).unwrap();
-        let before = all.gyro_momentum(&readings.gimbal_angle);
+        let before = all.cmg_momentum(&readings.gimbal_angle);
         for (angle, rate) in readings.gimbal_angle.iter_mut().zip(told.actuators.gimbal_rate) {
             *angle += rate * PERIOD;
         }
-        let gained = all.gyro_momentum(&readings.gimbal_angle) - before;
+        let gained = all.cmg_momentum(&readings.gimbal_angle) - before;
         let w = state.V_NB_B.angular;
         let torque = -gained * (1.0 / PERIOD) - w.cross(I * w + before);
         state.V_NB_B.angular += I.solve(torque) * PERIOD;
@@ -246,7 +246,7 @@ fn an_error_of_attitude_dies_out_by_gyros() {
 /// were booked.
 #[test]
 fn nothing_is_owed_for_a_coast() {
-    let all = actuators(&[], &gyros(), &[]);
+    let all = actuators(&[], &cmgs(), &[]);
     let phase = |what, periods: f64| Phase::Hold { what, duration: periods * PERIOD };
     let phases = [phase(Held::Joints, 2.0), phase(Held::Nothing, 5.0), phase(Held::Joints, 2.0)];
     let mut computer = FlightComputer::new(with(&all, None), &robot(), &phases);

@@ -19,15 +19,15 @@ use flights::{Flight, aside, at_rest, drifting, robot, setup};
 use std::hint::black_box;
 use wrasse_dynamics::kinematics;
 use wrasse_flight::steering::{
-    Damping, GyroLaw, GyroSharing, Steering, SteeringSetup, Unit, Waves, WheelLaw, WheelSharing,
-    gyro_rates, preferred_angles, wheel_torques,
+    CmgLaw, CmgSharing, Damping, Steering, SteeringSetup, Unit, Waves, WheelLaw, WheelSharing,
+    cmg_rates, preferred_angles, wheel_torques,
 };
 use wrasse_flight::{
     Actuation, ArmLaw, Axes, BaseReading, EstimatorSetup, FlightComputer, Grip, Held, JointReading,
     JointTarget, JointTiming, Measurement, NavigationSetup, NoWay, Phase, PositionHold, Sensed,
 };
 use wrasse_hardware::{
-    ActuatorReadings, ControlMomentGyro, GYROS, RateGyro, ReactionWheel, StarTracker,
+    ActuatorReadings, CMGS, ControlMomentGyro, RateGyro, ReactionWheel, StarTracker,
     TrackerReading, WHEELS,
 };
 use wrasse_spatial::{Pose, Quat, SpatialForce, Vec3, vec3};
@@ -108,9 +108,9 @@ fn wheel_allocation_allocates_nothing() {
 
 /// Steering by each law, and the search for angles to start from.
 #[test]
-fn gyro_steering_allocates_nothing() {
+fn cmg_steering_allocates_nothing() {
     let mounted = [([0.8, 0.6], 1.0), ([-0.8, 0.6], -1.0)];
-    let gyros = mounted.map(|([x, z], y)| ControlMomentGyro {
+    let cmgs = mounted.map(|([x, z], y)| ControlMomentGyro {
         gimbal_axis_B: vec3(x, 0.0, z),
         spin_axis_B: vec3(0.0, y, 0.0),
         momentum: 15.0,
@@ -119,31 +119,31 @@ fn gyro_steering_allocates_nothing() {
     });
     let (damping, waves) = (Damping { k0: 0.01, fading: 10.0 }, Waves::default());
     for sharing in [
-        GyroSharing::PseudoInverse,
-        GyroSharing::SingularityRobust(damping),
-        GyroSharing::GeneralizedSingularityRobust(damping, waves),
+        CmgSharing::PseudoInverse,
+        CmgSharing::SingularityRobust(damping),
+        CmgSharing::GeneralizedSingularityRobust(damping, waves),
     ] {
-        let law = GyroLaw { sharing, null_gain: 0.1 };
-        let (wanted, angles) = (vec3(1.0, -2.0, 3.0), [0.3; GYROS]);
+        let law = CmgLaw { sharing, null_gain: 0.1 };
+        let (wanted, angles) = (vec3(1.0, -2.0, 3.0), [0.3; CMGS]);
         let calls = allocations(|| {
-            black_box(gyro_rates(&gyros, &[true; GYROS], &law, wanted, &angles, 1.5));
+            black_box(cmg_rates(&cmgs, &[true; CMGS], &law, wanted, &angles, 1.5));
         });
         assert_eq!(calls, 0, "{sharing:?}");
     }
     let calls = allocations(|| {
-        assert!(preferred_angles(&gyros, vec3(0.0, 1.0, 0.0)).is_some());
+        assert!(preferred_angles(&cmgs, vec3(0.0, 1.0, 0.0)).is_some());
     });
     assert_eq!(calls, 0);
 }
 
 /// Everything that turns or pushes the base, by the laws that work hardest.
 fn all_groups() -> SteeringSetup<f64> {
-    let all = bench::actuators(&bench::wheels(0.2), &bench::gyros(), &bench::thrusters(22.0));
+    let all = bench::actuators(&bench::wheels(0.2), &bench::cmgs(), &bench::thrusters(22.0));
     let (damping, waves) = (Damping { k0: 0.01, fading: 10.0 }, Waves::default());
     SteeringSetup {
         wheels: WheelLaw { sharing: WheelSharing::MinimumPeak, null_gain: 0.1 },
-        gyros: GyroLaw {
-            sharing: GyroSharing::GeneralizedSingularityRobust(damping, waves),
+        cmgs: CmgLaw {
+            sharing: CmgSharing::GeneralizedSingularityRobust(damping, waves),
             null_gain: 0.1,
         },
         unloading: Some(bench::unloading()),
@@ -151,7 +151,7 @@ fn all_groups() -> SteeringSetup<f64> {
     }
 }
 
-/// More is wanted than there is, wheels and gyros are emptied, a wheel is lost, a reading is no number.
+/// More is wanted than there is, wheels and CMGs are emptied, a wheel is lost, a reading is no number.
 #[test]
 fn steering_all_groups_allocates_nothing() {
     let mut steering = Steering::new(&all_groups());

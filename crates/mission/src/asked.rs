@@ -6,7 +6,7 @@ use crate::observe::Observation;
 use crate::read_base::Turning;
 use std::array::from_fn;
 use wrasse_flight::Command;
-use wrasse_hardware::{ActuatorReadings, GYROS};
+use wrasse_hardware::{ActuatorReadings, CMGS};
 use wrasse_spatial::Vec3;
 use wrasse_vehicle::JOINTS;
 use wrasse_world::{BaseAttitude, World};
@@ -65,7 +65,7 @@ pub(crate) fn wheel_speeds(
     })
 }
 
-/// Rate of each gimbal (rad/s): the one that it is told and what its gyro would have to add to give what
+/// Rate of each gimbal (rad/s): the one that it is told and what its CMG would have to add to give what
 /// is missing about its torque axis, or the one that it has where that is more; with the limit.
 pub(crate) fn gimbal_rates(
     case: &Case,
@@ -75,15 +75,15 @@ pub(crate) fn gimbal_rates(
 ) -> impl Iterator<Item = (f64, f64)> {
     let (told, angles, rates) =
         (command.actuators.gimbal_rate, readings.gimbal_angle, readings.gimbal_rate);
-    case.equipment.actuators.gyros.iter().enumerate().take(GYROS).map(move |(i, gyro)| {
-        let asked = told[i] - gyro.torque_axis(angles[i]).dot(cut_B) / gyro.momentum;
-        (larger(rates[i], asked), gyro.rate_limit)
+    case.equipment.actuators.cmgs.iter().enumerate().take(CMGS).map(move |(i, cmg)| {
+        let asked = told[i] - cmg.torque_axis(angles[i]).dot(cut_B) / cmg.momentum;
+        (larger(rates[i], asked), cmg.rate_limit)
     })
 }
 
 /// Torque of each gimbal's motor (N·m): the one that it gives now, or the one that it would have needed
 /// to do as it was told, where that is more.
-pub(crate) fn gimbal_motors(world: &World<JOINTS>) -> [f64; GYROS] {
+pub(crate) fn gimbal_motors(world: &World<JOINTS>) -> [f64; CMGS] {
     let (given, asked) = (world.gimbal_motor_torque(), world.gimbal_motor_asked());
     from_fn(|i| larger(given[i], asked[i]))
 }

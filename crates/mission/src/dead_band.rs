@@ -25,7 +25,7 @@ impl DeadBand {
         time: f64,
     ) -> Option<String> {
         let actuators = &case.equipment.actuators;
-        let alone = actuators.wheels.is_empty() && actuators.gyros.is_empty();
+        let alone = actuators.wheels.is_empty() && actuators.cmgs.is_empty();
         let setup = case.setup.base.actuation.steering()?;
         let (torque, force) =
             (command.steering.wanted.torque.norm(), command.steering.wanted.force.norm());

@@ -11,14 +11,14 @@ use crate::read_base::Turning;
 use crate::saturations::{EquipmentLimits, describe};
 use crate::sensing::{Refusals, Sensing};
 use wrasse_flight::{Command, FlightComputer};
-use wrasse_hardware::{GYROS, SetPoint, SetPointMotion, THRUSTERS, WHEELS};
+use wrasse_hardware::{CMGS, SetPoint, SetPointMotion, THRUSTERS, WHEELS};
 use wrasse_spatial::{Quat, Vec3};
 use wrasse_vehicle::{JOINTS, VehicleRobot};
 use wrasse_world::{Drive, Saturation, Stepper, World};
 
 /// Most limits that can cut the commands of a period: efforts, an ideal actuator's torque and momentum,
-/// wheels' and gyros' two limits each, thrusters and their tank.
-const LIMITS: usize = JOINTS + 6 + 2 * WHEELS + 2 * GYROS + THRUSTERS + 1;
+/// wheels' and CMGs' two limits each, thrusters and their tank.
+const LIMITS: usize = JOINTS + 6 + 2 * WHEELS + 2 * CMGS + THRUSTERS + 1;
 
 /// Share of the vehicle's mass whose loss as propellant the flight computer is told of.
 const NOTICED: f64 = 1e-4;
@@ -44,7 +44,7 @@ pub(crate) struct Flight<'a> {
     pub(crate) dry: bool,
     /// Whether the attitude was lost.
     pub(crate) lost: bool,
-    /// Whether thrusters empty wheels and gyros.
+    /// Whether thrusters empty wheels and CMGs.
     pub(crate) unloads: bool,
     /// Angle of the estimated attitude from the true one (rad); NaN where nothing is estimated.
     pub(crate) estimate_error: f64,

@@ -31,7 +31,7 @@ pub(crate) struct MissionFile {
     /// Rigid bodies that can be held, by name.
     #[serde(default)]
     pub(crate) payload: BTreeMap<String, PayloadFile>,
-    /// Wheels, gyros and thrusters; they replace the vehicle's.
+    /// Wheels, CMGs and thrusters; they replace the vehicle's.
     #[serde(default)]
     pub(crate) actuators: Option<EquipmentFile>,
     /// Sensors of attitude and joints; they replace the vehicle's.

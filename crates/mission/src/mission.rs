@@ -83,7 +83,7 @@ impl Mission {
     pub fn case_labels(&self, case: usize) -> &[(String, String)] {
         &self.cases[case].labels
     }
-    /// Wheels, gyros and thrusters of a case.
+    /// Wheels, CMGs and thrusters of a case.
     ///
     /// # Panics
     /// If there is no case of this number.

@@ -80,7 +80,7 @@ impl Flight<'_> {
             self.unloads = command.steering.unloading;
             let stored = command.steering.stored_B.norm();
             let done = if self.unloads { "begin to empty" } else { "have emptied" };
-            let text = format!("thrusters {done} wheels and gyros: {stored:.2} N·m·s are stored");
+            let text = format!("thrusters {done} wheels and CMGs: {stored:.2} N·m·s are stored");
             self.say(EventKind::Limit, text);
         }
         if let Some(reason) = command.no_relief {

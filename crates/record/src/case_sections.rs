@@ -208,8 +208,8 @@ fn ledger(case: &CaseOutcome) -> String {
     format!(
         "{closes}{}{}<p class=\"hint\">Vectors are in inertial axes, angular momentum is about the \
          centre of mass of everything simulated. What the attitude actuator stores is the opposite \
-         of its entry; what wheels and gyros store is part of start and end, and the work on the bodies \
-         of thrusters, wheels and gyros stands under the attitude actuator. Rests are the largest over \
+         of its entry; what wheels and CMGs store is part of start and end, and the work on the bodies \
+         of thrusters, wheels and CMGs stands under the attitude actuator. Rests are the largest over \
          the run.</p>\n",
         table("ledger", &head, &rows),
         stores(ledger)
@@ -254,9 +254,9 @@ fn ledger_entries(ledger: &Ledger) -> [[String; 8]; 3] {
     ]
 }
 
-/// Where the angular momentum was at the start and at the end, if there are wheels or gyros.
+/// Where the angular momentum was at the start and at the end, if there are wheels or CMGs.
 fn stores(ledger: &Ledger) -> String {
-    let each = [("wheels", ledger.angular_in_wheels), ("gyros", ledger.angular_in_gyros)];
+    let each = [("wheels", ledger.angular_in_wheels), ("CMGs", ledger.angular_in_cmgs)];
     let rows: Vec<_> = each
         .into_iter()
         .filter(|(_, [start, end])| start.iter().chain(end).any(|x| *x != 0.0))

@@ -199,7 +199,7 @@ fn sets(sets: &[SetCard]) -> String {
             table("text", &["Set", "Of", "Grade", "Source"], &sources)
         )
     };
-    "<p class=\"hint\">Gyros: with steering by the pseudo-inverse from the gimbal angles at the start, and \
+    "<p class=\"hint\">CMGs: with steering by the pseudo-inverse from the gimbal angles at the start, and \
      in brackets with the best steering there can be. Thrusters: couples.</p>\n"
         .to_owned()
         + &table("sizes", &head, &rows.collect::<Vec<_>>())
@@ -302,13 +302,12 @@ fn flights(outcome: &StudyOutcome) -> String {
     table("sizes flown", &head, &rows) + &error_figure(outcome)
 }
 
-/// The momentum envelopes of the gyros, with what the tasks ask on top; of the wheels if there are no
-/// gyros.
+/// The momentum envelopes of the CMGs, with what the tasks ask on top; of the wheels if there are no
+/// CMGs.
 fn envelopes(outcome: &StudyOutcome) -> String {
     let drawn =
         |kind| outcome.sets.iter().filter(move |set| set.kind == kind && !set.surfaces.is_empty());
-    let kind =
-        if drawn(SetKind::Gyros).next().is_some() { SetKind::Gyros } else { SetKind::Wheels };
+    let kind = if drawn(SetKind::Cmgs).next().is_some() { SetKind::Cmgs } else { SetKind::Wheels };
     let mut html = saturation_figure(outcome);
     for set in drawn(kind).take(ENVELOPES) {
         let paths: Vec<_> = largest_demands(outcome)

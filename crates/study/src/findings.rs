@@ -1,4 +1,4 @@
-//! What follows from the verdicts: where gyros are needed, as the claim of a study has it, where they
+//! What follows from the verdicts: where CMGs are needed, as the claim of a study has it, where they
 //! are not, and what decides. Every sentence counts verdicts; none is written beforehand.
 
 use crate::judgement::Answer;
@@ -16,7 +16,7 @@ pub(crate) fn findings(
     let all = Verdicts { claim, sets, tasks };
     let parts = [
         lightest(sets, &all.that(|_| true)),
-        all.only_gyros(),
+        all.only_cmgs(),
         all.wheels_suffice(),
         all.neither(),
         all.torque_decides(),
@@ -66,9 +66,9 @@ impl<'a> Verdicts<'a> {
     fn has(&self, kind: SetKind) -> bool {
         self.sets.iter().any(|set| set.kind == kind)
     }
-    /// What to say of the claim that gyros are needed, if the study makes it.
+    /// What to say of the claim that CMGs are needed, if the study makes it.
     fn of_the_claim(&self, text: &'static str) -> &'static str {
-        if self.claim == Some(ClaimIs::GyrosNeeded) { text } else { "" }
+        if self.claim == Some(ClaimIs::CmgsNeeded) { text } else { "" }
     }
     /// That thrusters suffice in some of the tasks, and what the cheapest that do take at most (kg).
     fn thrusters_too(&self, tasks: &[&'a TaskOutcome]) -> String {
@@ -86,15 +86,15 @@ impl<'a> Verdicts<'a> {
             fuel.len()
         )
     }
-    /// The claim holds against wheels: a set of gyros does, no set of wheels.
-    fn only_gyros(&self) -> Option<Finding> {
-        let gyros = |t, answer| self.some(t, SetKind::Gyros, answer);
+    /// The claim holds against wheels: a set of CMGs does, no set of wheels.
+    fn only_cmgs(&self) -> Option<Finding> {
+        let cmgs = |t, answer| self.some(t, SetKind::Cmgs, answer);
         let tasks = self.that(|t| {
-            !self.some(t, SetKind::Wheels, Answer::WithSteering) && gyros(t, Answer::WithSteering)
+            !self.some(t, SetKind::Wheels, Answer::WithSteering) && cmgs(t, Answer::WithSteering)
         });
-        let steered = tasks.iter().filter(|t| !gyros(t, Answer::Yes)).count();
+        let steered = tasks.iter().filter(|t| !cmgs(t, Answer::Yes)).count();
         let mut text = format!(
-            "In {} of {} tasks a set of gyros suffices and no set of wheels does.",
+            "In {} of {} tasks a set of CMGs suffices and no set of wheels does.",
             tasks.len(),
             self.asked()
         );
@@ -104,8 +104,8 @@ impl<'a> Verdicts<'a> {
         }
         text += self.of_the_claim(" There the claim holds against wheels.");
         text += &self.thrusters_too(&tasks);
-        let both = self.has(SetKind::Wheels) && self.has(SetKind::Gyros);
-        both.then(|| finding("gyros are needed", text, &tasks))
+        let both = self.has(SetKind::Wheels) && self.has(SetKind::Cmgs);
+        both.then(|| finding("CMGs are needed", text, &tasks))
     }
     /// The claim is not needed: wheels do.
     fn wheels_suffice(&self) -> Option<Finding> {
@@ -118,14 +118,14 @@ impl<'a> Verdicts<'a> {
         );
         self.has(SetKind::Wheels).then(|| finding("wheels suffice", text, &tasks))
     }
-    /// The claim is not enough: no gyros do either.
+    /// The claim is not enough: no CMGs do either.
     fn neither(&self) -> Option<Finding> {
-        let stored = [SetKind::Wheels, SetKind::Gyros];
+        let stored = [SetKind::Wheels, SetKind::Cmgs];
         let tasks =
             self.that(|t| stored.iter().all(|kind| !self.some(t, *kind, Answer::WithSteering)));
         let worst = tasks.iter().map(|t| t.peak_torque_nm).fold(0.0, f64::max);
         let mut text = format!(
-            "In {} of {} tasks no set of wheels and no set of gyros suffices (up to {} N·m).",
+            "In {} of {} tasks no set of wheels and no set of CMGs suffices (up to {} N·m).",
             tasks.len(),
             self.asked(),
             rounded(worst)
@@ -139,7 +139,7 @@ impl<'a> Verdicts<'a> {
         }
         text += self.of_the_claim(" There the claim says too little.");
         text += &self.thrusters_too(&tasks);
-        self.has(SetKind::Gyros).then(|| finding("not even gyros", text, &tasks))
+        self.has(SetKind::Cmgs).then(|| finding("not even CMGs", text, &tasks))
     }
     /// No wheels suffice, and some hold the momentum but cannot give the torque: a slower motion is a
     /// remedy.
@@ -167,14 +167,14 @@ impl<'a> Verdicts<'a> {
         );
         self.has(SetKind::Wheels).then(|| finding("torque decides", text, &tasks))
     }
-    /// Gyros that the envelopes do not rule out, if they are steered past the inner singular surfaces.
+    /// CMGs that the envelopes do not rule out, if they are steered past the inner singular surfaces.
     fn steering_decides(&self) -> Option<Finding> {
         let needs = |v: &SetVerdict| v.suffices == Answer::WithSteering;
-        let tasks = self.that(|t| self.of(t, SetKind::Gyros).any(needs));
+        let tasks = self.that(|t| self.of(t, SetKind::Cmgs).any(needs));
         let pairs: usize =
-            tasks.iter().map(|t| self.of(t, SetKind::Gyros).filter(|v| needs(v)).count()).sum();
+            tasks.iter().map(|t| self.of(t, SetKind::Cmgs).filter(|v| needs(v)).count()).sum();
         let text = format!(
-            "{pairs} times a set of gyros is not ruled out, but needs steering that starts from good \
+            "{pairs} times a set of CMGs is not ruled out, but needs steering that starts from good \
              gimbal angles, or avoids or escapes singularities: the demand is within the outer surface, \
              and beyond what the pseudo-inverse reaches. Whether a law gets there, a flight shows."
         );
@@ -196,7 +196,7 @@ impl<'a> Verdicts<'a> {
             tasks.len(),
             self.asked()
         );
-        for (kind, name) in [(SetKind::Wheels, "wheels"), (SetKind::Gyros, "gyros")] {
+        for (kind, name) in [(SetKind::Wheels, "wheels"), (SetKind::Cmgs, "CMGs")] {
             match lasting(kind) {
                 Some((low, high)) => {
                     text += &format!(
@@ -237,7 +237,7 @@ impl<'a> Verdicts<'a> {
             .reduce(|a, b| if b.tool_error_mm > a.tool_error_mm { b } else { a })?;
         let text = format!(
             "In {} of {} tasks a force pushes the vehicle away with its attitude held: by {} mm in {} s \
-             at most. Wheels and gyros cannot react a force, thrusters and a grapple can.",
+             at most. Wheels and CMGs cannot react a force, thrusters and a grapple can.",
             tasks.len(),
             self.asked(),
             rounded(worst.tool_error_mm),
@@ -249,7 +249,7 @@ impl<'a> Verdicts<'a> {
     fn tool_error_decides(&self) -> Option<Finding> {
         let flown = self.that(|t| t.verdicts.iter().any(|v| v.flown.is_some()));
         let told =
-            [SetKind::Wheels, SetKind::Gyros, SetKind::Thrusters, SetKind::Hybrid].map(|kind| {
+            [SetKind::Wheels, SetKind::Cmgs, SetKind::Thrusters, SetKind::Hybrid].map(|kind| {
                 let all: Vec<_> = flown
                     .iter()
                     .flat_map(|t| self.of(t, kind))
@@ -293,9 +293,9 @@ fn name(kind: SetKind) -> &'static str {
         SetKind::Ideal => "The reference",
         SetKind::Actuator => "The vehicle's ideal actuator",
         SetKind::Wheels => "Wheels",
-        SetKind::Gyros => "Gyros",
+        SetKind::Cmgs => "CMGs",
         SetKind::Thrusters => "Thrusters",
-        SetKind::Hybrid => "Gyros or wheels with thrusters",
+        SetKind::Hybrid => "CMGs or wheels with thrusters",
         SetKind::Nothing => "Nothing",
     }
 }

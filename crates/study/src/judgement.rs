@@ -19,7 +19,7 @@ pub enum Answer {
     No,
 }
 
-/// A figure with plain steering, and with the best there is. The two differ for gyros only.
+/// A figure with plain steering, and with the best there is. The two differ for CMGs only.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Both<T> {
     /// With steering by the pseudo-inverse from the angles at the start.
@@ -73,7 +73,7 @@ pub fn judge(demand: &Demand, able: &Capability, own_motion: bool) -> Judgement 
     let plain = Plain::follow(&demand, &shared.stored, lasting, able);
     let fuel = fuel(&shared.pushed, able, false);
     let torque_load = Both { plain: plain.torque_load.unwrap_or(best), best };
-    let stops = if able.gyros.is_empty() || able.is_unbounded() { leaves } else { plain.stops };
+    let stops = if able.cmgs.is_empty() || able.is_unbounded() { leaves } else { plain.stops };
     let answer = |plain: bool, best: bool| match (plain, best) {
         (true, true) => Answer::Yes,
         (false, true) => Answer::WithSteering,
@@ -103,14 +103,14 @@ pub fn judge(demand: &Demand, able: &Capability, own_motion: bool) -> Judgement 
 
 /// A demand shared between thrusters and what stores momentum.
 struct Shared {
-    /// What wheels and gyros have to store.
+    /// What wheels and CMGs have to store.
     stored: Demand,
     /// What thrusters have to give.
     pushed: Demand,
 }
 
 impl Shared {
-    /// Beside wheels and gyros that hold all of the momentum, thrusters give what torque is missing. Else
+    /// Beside wheels and CMGs that hold all of the momentum, thrusters give what torque is missing. Else
     /// they take all that they can, and the others the rest.
     fn of(demand: &Demand, own_motion: bool, able: &Capability) -> Self {
         if !able.is_hybrid() {
@@ -197,24 +197,24 @@ fn boundary(mut low: f64, mut high: f64, over: impl Fn(f64) -> bool) -> f64 {
 
 /// What comes of plain steering along a demand.
 struct Plain {
-    /// Largest torque over what the gimbals can give where they are then (–); none without gyros.
+    /// Largest torque over what the gimbals can give where they are then (–); none without CMGs.
     torque_load: Option<f64>,
     /// When the steering gets no further (s).
     stops: Option<f64>,
 }
 
 impl Plain {
-    /// `stored`: what wheels and gyros hold of the demand.
+    /// `stored`: what wheels and CMGs hold of the demand.
     fn follow(
         demand: &Demand,
         stored: &Demand,
         lasting: Option<Vec3<f64>>,
         able: &Capability,
     ) -> Self {
-        if able.gyros.is_empty() {
+        if able.cmgs.is_empty() {
             return Self { torque_load: None, stops: None };
         }
-        let path = steering_path(&able.gyros, &able.gimbal_angle, &beyond_wheels(stored, able));
+        let path = steering_path(&able.cmgs, &able.gimbal_angle, &beyond_wheels(stored, able));
         let asked = path.angles.iter().zip(&demand.torque_B);
         let loads = asked.map(|(angles, torque)| load(*torque, |d| able.torque_at(angles, d)));
         let torque_load = Some(loads.fold(0.0, f64::max));
@@ -222,7 +222,7 @@ impl Plain {
     }
 }
 
-/// Momentum that is left to the gyros: wheels take what they can of the torque, until they are full.
+/// Momentum that is left to the CMGs: wheels take what they can of the torque, until they are full.
 fn beyond_wheels(stored: &Demand, able: &Capability) -> Vec<Vec3<f64>> {
     if able.wheel_momentum.is_empty() {
         return stored.momentum_B.clone();
@@ -251,7 +251,7 @@ fn stops(
     }
     let rate = lasting?;
     let angles = path.angles.last()?;
-    let left = steering_reach(&able.gyros, angles, rate * (1.0 / rate.norm())).momentum;
+    let left = steering_reach(&able.cmgs, angles, rate * (1.0 / rate.norm())).momentum;
     Some(demand.time.last()? + left / rate.norm())
 }
 
@@ -293,7 +293,7 @@ fn pace(least: f64, fails: impl Fn(f64) -> bool) -> Option<f64> {
 /// By how much slower plain steering can do the task, by halving: no faster than the best.
 fn slower_plain(demand: &Demand, able: &Capability, best: Option<f64>) -> Option<f64> {
     let best = best?;
-    if able.gyros.is_empty() {
+    if able.cmgs.is_empty() {
         return Some(best);
     }
     pace(best, |factor| {
@@ -375,11 +375,10 @@ mod tests {
         Capability::of(&equipment, Vec3::zero())
     }
 
-    fn gyros(momentum: f64) -> Capability {
+    fn cmgs(momentum: f64) -> Capability {
         let mut equipment = Equipment::default();
-        let gyros =
-            pyramid(0.6, momentum).map(|gyro| ControlMomentGyro { rate_limit: 1.0, ..gyro });
-        equipment.actuators.gyros = List::new(&gyros);
+        let cmgs = pyramid(0.6, momentum).map(|cmg| ControlMomentGyro { rate_limit: 1.0, ..cmg });
+        equipment.actuators.cmgs = List::new(&cmgs);
         Capability::of(&equipment, Vec3::zero())
     }
 
@@ -407,10 +406,10 @@ mod tests {
 
     /// The pyramid of 50 N·m·s stops at 60 with plain steering and holds 160 at most.
     #[test]
-    fn gyros_answer_with_steering_between_the_inner_and_the_outer_surface() {
-        let answers = [50.0, 100.0, 200.0].map(|h| judge(&motion(h), &gyros(50.0), true).momentum);
+    fn cmgs_answer_with_steering_between_the_inner_and_the_outer_surface() {
+        let answers = [50.0, 100.0, 200.0].map(|h| judge(&motion(h), &cmgs(50.0), true).momentum);
         assert_eq!(answers, [Answer::Yes, Answer::WithSteering, Answer::No]);
-        let verdict = judge(&motion(100.0), &gyros(50.0), true);
+        let verdict = judge(&motion(100.0), &cmgs(50.0), true);
         assert_eq!(verdict.slower.best, Some(1.0));
         // 100 / 60 suffices for the momentum; the torque near the surface asks for a little more.
         let plain = verdict.slower.plain.unwrap();
@@ -473,7 +472,7 @@ mod tests {
     /// 4 N·m along x: 60 N·m·s last 15 s, 160 last 40 s; three wheels of 50 last 12.5 s.
     #[test]
     fn a_torque_that_lasts_is_followed_beyond_the_task() {
-        let verdict = judge(&push(4.0), &gyros(50.0), false);
+        let verdict = judge(&push(4.0), &cmgs(50.0), false);
         assert_eq!((verdict.torque, verdict.momentum), (Answer::Yes, Answer::Yes));
         let (plain, best) = (verdict.saturates.plain.unwrap(), verdict.saturates.best.unwrap());
         // Measured 4.4e-4 and 6e-11.

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
-/// Wheels, gyros and thrusters of the base, and the tank of the thrusters.
+/// Wheels, CMGs and thrusters of the base, and the tank of the thrusters.
 ///
 /// Units are matter of the base: its mass and inertia include theirs. Propellant comes on top.
 /// Positions and directions are in the base's frame.
@@ -21,10 +21,12 @@ pub struct EquipmentFile {
     pub(crate) wheel: Vec<WheelFile>,
     /// Control moment gyros, one by one.
     #[serde(default)]
-    pub(crate) gyro: Vec<GyroFile>,
-    /// Arrays of equal control moment gyros; they come after those of `gyro`.
+    #[schemars(extend("x-formerly" = ["gyro"]))]
+    pub(crate) cmg: Vec<CmgFile>,
+    /// Arrays of equal control moment gyros; they come after those of `cmg`.
     #[serde(default)]
-    pub(crate) gyro_array: Vec<GyroArrayFile>,
+    #[schemars(extend("x-formerly" = ["gyro_array"]))]
+    pub(crate) cmg_array: Vec<CmgArrayFile>,
     /// Thrusters, one by one.
     #[serde(default)]
     pub(crate) thruster: Vec<ThrusterFile>,
@@ -88,7 +90,7 @@ pub(crate) struct WheelNumbers {
 /// A single-gimbal control moment gyro: of a model of the catalogue, or by its own numbers.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct GyroFile {
+pub(crate) struct CmgFile {
     /// What it is called.
     #[schemars(length(min = 1))]
     pub(crate) name: String,
@@ -103,7 +105,7 @@ pub(crate) struct GyroFile {
     pub(crate) gimbal_angle_deg: Option<f64>,
     /// What it can do.
     #[serde(flatten)]
-    pub(crate) numbers: GyroNumbers,
+    pub(crate) numbers: CmgNumbers,
     /// Where these numbers come from.
     pub(crate) source: Option<SourceFile>,
     /// Sources of single numbers, by their key, where they differ from `source`.
@@ -113,7 +115,7 @@ pub(crate) struct GyroFile {
 
 /// What a control moment gyro can do.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize, JsonSchema)]
-pub(crate) struct GyroNumbers {
+pub(crate) struct CmgNumbers {
     /// Momentum of the rotor (N·m·s).
     pub(crate) momentum_nms: Option<f64>,
     /// Largest gimbal rate (deg/s); follows from torque and momentum.
@@ -134,32 +136,32 @@ pub(crate) struct GyroNumbers {
     pub(crate) power_w: Option<f64>,
 }
 
-/// An array of equal gyros in a frame of its own, its axis along z. They are called NAME-1, NAME-2, ….
+/// An array of equal CMGs in a frame of its own, its axis along z. They are called NAME-1, NAME-2, ….
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct GyroArrayFile {
+pub(crate) struct CmgArrayFile {
     /// What it is called.
     #[schemars(length(min = 1))]
     pub(crate) name: String,
     /// A control moment gyro of the hardware catalogue.
     #[schemars(length(min = 1))]
     pub(crate) model: Option<String>,
-    /// How the gyros are mounted.
-    pub(crate) arrangement: GyroArrangementFile,
+    /// How the CMGs are mounted.
+    pub(crate) arrangement: CmgArrangementFile,
     /// Angle between gimbal axes and z (deg), of a pyramid or a roof.
     pub(crate) skew_deg: Option<f64>,
-    /// Number of gyros of a roof: 4, 6 or 8.
+    /// Number of CMGs of a roof: 4, 6 or 8.
     #[schemars(range(min = 4, max = 8))]
     pub(crate) count: Option<usize>,
     /// How the array is turned from the base's axes; not at all if not given.
     pub(crate) orientation: Option<OrientationFile>,
-    /// Gimbal angle of each gyro at the start (deg). If not given: zero in a pyramid; evenly from -45 to
+    /// Gimbal angle of each CMG at the start (deg). If not given: zero in a pyramid; evenly from -45 to
     /// 45 along each row of a roof; 45, -45, 45, -45 in a box. All of these add up to no momentum and
     /// can make torque about any axis.
     pub(crate) gimbal_angles_deg: Option<Vec<f64>>,
-    /// What each gyro can do.
+    /// What each CMG can do.
     #[serde(flatten)]
-    pub(crate) numbers: GyroNumbers,
+    pub(crate) numbers: CmgNumbers,
     /// Where these numbers come from.
     pub(crate) source: Option<SourceFile>,
     /// Sources of single numbers, by their key, where they differ from `source`.
@@ -167,18 +169,18 @@ pub(crate) struct GyroArrayFile {
     pub(crate) source_of: BTreeMap<String, SourceFile>,
 }
 
-/// A way of mounting several gyros. s and c are sine and cosine of the skew.
+/// A way of mounting several CMGs. s and c are sine and cosine of the skew.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum GyroArrangementFile {
-    /// Four gyros on the faces of a pyramid: gimbal axes stand on the faces, gyro 1 at (s, 0, c) with
+pub(crate) enum CmgArrangementFile {
+    /// Four CMGs on the faces of a pyramid: gimbal axes stand on the faces, CMG 1 at (s, 0, c) with
     /// its spin axis at zero angle along y; each of the others is turned a further 90 deg about z.
     Pyramid,
-    /// Two rows of gyros on the slopes of a roof whose ridge is x: gimbal axes stand on the slopes, at
-    /// (0, s, c) for the first half of the gyros and (0, -s, c) for the second. Spin axes at zero angle
+    /// Two rows of CMGs on the slopes of a roof whose ridge is x: gimbal axes stand on the slopes, at
+    /// (0, s, c) for the first half of the CMGs and (0, -s, c) for the second. Spin axes at zero angle
     /// lie along x in the first row and along -x in the second.
     Roof,
-    /// Four gyros in the four upright sides of a box, gimbal axes pointing out along x, y, -x, -y: a
+    /// Four CMGs in the four upright sides of a box, gimbal axes pointing out along x, y, -x, -y: a
     /// pyramid of 90 deg skew, two pairs of parallel gimbals.
     Box,
 }

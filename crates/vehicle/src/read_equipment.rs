@@ -7,14 +7,14 @@ use crate::hardware_catalogue::ModelsUsed;
 use crate::mounted_unit::Mounted;
 use crate::provenance::Sources;
 use crate::spanning::check_spanning;
-use crate::toml_gyro::{gyro, gyro_array};
+use crate::toml_cmg::{cmg, cmg_array};
 use crate::toml_reading::{Reading, under};
 use crate::toml_thruster::{tank, thruster, thruster_set};
 use crate::toml_wheel::wheel;
 use std::ops::Range;
 use wrasse_document::{Complaint, Document, Step};
 use wrasse_hardware::{
-    Actuators, ControlMomentGyro, GYROS, List, ReactionWheel, THRUSTERS, Thruster, WHEELS,
+    Actuators, CMGS, ControlMomentGyro, List, ReactionWheel, THRUSTERS, Thruster, WHEELS,
 };
 
 /// The equipment of a table `[actuators]` that stands at `path` in a document, and all complaints about
@@ -36,7 +36,7 @@ struct Units {
     /// Whether one could not.
     broken: bool,
     wheels: Vec<Mounted<ReactionWheel<f64>>>,
-    gyros: Vec<Mounted<ControlMomentGyro<f64>>>,
+    cmgs: Vec<Mounted<ControlMomentGyro<f64>>>,
     thrusters: Vec<Mounted<Thruster<f64>>>,
 }
 
@@ -55,14 +55,14 @@ pub(crate) fn equipment(
     blocks(reading, sources, path, file);
     let mut provenance = std::mem::take(&mut sources.rows);
     provenance.append(&mut models.rows);
-    let Units { wheels, gyros, thrusters, .. } = &units;
+    let Units { wheels, cmgs, thrusters, .. } = &units;
     let actuators = Actuators {
         wheels: List::new(&bare(wheels)),
-        gyros: List::new(&bare(gyros)),
+        cmgs: List::new(&bare(cmgs)),
         thrusters: List::new(&bare(thrusters)),
         tank,
     };
-    let gimbal_angle = starts(gyros);
+    let gimbal_angle = starts(cmgs);
     if let Some(at) = units.first_that_turns().filter(|_| !units.broken) {
         check_spanning(reading, &actuators, &gimbal_angle, &at);
     }
@@ -70,7 +70,7 @@ pub(crate) fn equipment(
         name: file.name.clone().unwrap_or_else(|| units.name()),
         actuators,
         wheel_names: names(wheels, WHEELS),
-        gyro_names: names(gyros, GYROS),
+        cmg_names: names(cmgs, CMGS),
         thruster_names: names(thrusters, THRUSTERS),
         wheel_speed: starts(wheels),
         gimbal_angle,
@@ -93,15 +93,15 @@ fn units(
         all.broken |= unit.is_none();
         all.wheels.extend(unit);
     }
-    for (i, given) in file.gyro.iter().enumerate() {
-        let unit = gyro(reading, models, &item(path, "gyro", i), given);
+    for (i, given) in file.cmg.iter().enumerate() {
+        let unit = cmg(reading, models, &item(path, "cmg", i), given);
         all.broken |= unit.is_none();
-        all.gyros.extend(unit);
+        all.cmgs.extend(unit);
     }
-    for (i, given) in file.gyro_array.iter().enumerate() {
-        let array = gyro_array(reading, models, &item(path, "gyro_array", i), given);
+    for (i, given) in file.cmg_array.iter().enumerate() {
+        let array = cmg_array(reading, models, &item(path, "cmg_array", i), given);
         all.broken |= array.is_none();
-        all.gyros.extend(array.into_iter().flatten());
+        all.cmgs.extend(array.into_iter().flatten());
     }
     for (i, given) in file.thruster.iter().enumerate() {
         let unit = thruster(reading, models, &item(path, "thruster", i), given);
@@ -142,18 +142,18 @@ impl Units {
     fn each<'u, R>(
         &'u self,
         of_wheel: impl Fn(&'u Mounted<ReactionWheel<f64>>) -> R,
-        of_gyro: impl Fn(&'u Mounted<ControlMomentGyro<f64>>) -> R,
+        of_cmg: impl Fn(&'u Mounted<ControlMomentGyro<f64>>) -> R,
         of_thruster: impl Fn(&'u Mounted<Thruster<f64>>) -> R,
     ) -> Vec<R> {
         let mut all: Vec<R> = self.wheels.iter().map(of_wheel).collect();
-        all.extend(self.gyros.iter().map(of_gyro));
+        all.extend(self.cmgs.iter().map(of_cmg));
         all.extend(self.thrusters.iter().map(of_thruster));
         all
     }
-    /// Where the first wheel or gyro stands.
+    /// Where the first wheel or CMG stands.
     fn first_that_turns(&self) -> Option<Range<usize>> {
-        let gyro = || self.gyros.first().map(|unit| unit.at.clone());
-        self.wheels.first().map(|unit| unit.at.clone()).or_else(gyro)
+        let cmg = || self.cmgs.first().map(|unit| unit.at.clone());
+        self.wheels.first().map(|unit| unit.at.clone()).or_else(cmg)
     }
     /// A number of all units together; `None` if there are none or one does not say it.
     fn sum(&self, of: impl Fn(MassAndPower) -> Option<f64>) -> Option<f64> {
@@ -179,7 +179,7 @@ impl Units {
 fn check_counts(reading: &mut Reading<'_>, units: &Units) {
     let counts = [
         ("wheels", units.wheels.len(), units.wheels.get(WHEELS).map(|u| &u.at), WHEELS),
-        ("gyros", units.gyros.len(), units.gyros.get(GYROS).map(|u| &u.at), GYROS),
+        ("cmgs", units.cmgs.len(), units.cmgs.get(CMGS).map(|u| &u.at), CMGS),
         (
             "thrusters",
             units.thrusters.len(),
@@ -207,8 +207,8 @@ fn check_names(reading: &mut Reading<'_>, path: &[Step<'_>], file: &EquipmentFil
         };
     }
     names_of!(wheel);
-    names_of!(gyro);
-    names_of!(gyro_array);
+    names_of!(cmg);
+    names_of!(cmg_array);
     names_of!(thruster);
     names_of!(thruster_set);
     // Names that arrays and sets give, and not again those of single units.
@@ -248,8 +248,8 @@ fn blocks(
         };
     }
     blocks_of!(wheel);
-    blocks_of!(gyro);
-    blocks_of!(gyro_array);
+    blocks_of!(cmg);
+    blocks_of!(cmg_array);
     blocks_of!(thruster);
     blocks_of!(thruster_set);
     if let Some(tank) = &file.tank {

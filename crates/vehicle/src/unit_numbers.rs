@@ -1,7 +1,7 @@
 //! Numbers of a unit: what each may be, what is believed of it, and how a file's own replace those of
 //! the model that it names.
 
-use crate::equipment_format::{GyroNumbers, ThrusterNumbers, WheelNumbers};
+use crate::equipment_format::{CmgNumbers, ThrusterNumbers, WheelNumbers};
 use crate::figures::figures;
 use crate::sensor_format::{RateGyroNumbers, StarTrackerNumbers};
 use crate::toml_reading::{Reading, under};
@@ -74,7 +74,7 @@ impl Numbers for WheelNumbers {
     }
 }
 
-impl Numbers for GyroNumbers {
+impl Numbers for CmgNumbers {
     const KIND: &'static str = "control moment gyro";
     fn over(self, model: Self) -> Self {
         let own = self.gimbal_rate_limit_deg_s.is_some() || self.torque_limit_nm.is_some();

@@ -2,8 +2,8 @@
 //! not be given is reported, not hidden.
 
 mod bounded_simplex;
-mod gyro_null_motion;
-mod gyro_steering;
+mod cmg_null_motion;
+mod cmg_steering;
 mod least_peak;
 mod posture_relief;
 mod preferred_angles;
@@ -15,7 +15,7 @@ mod thruster_selection;
 mod unloading;
 mod wheel_allocation;
 
-pub use gyro_steering::{Damping, GyroLaw, GyroSharing, Waves, gyro_rates, gyro_singularity};
+pub use cmg_steering::{CmgLaw, CmgSharing, Damping, Waves, cmg_rates, cmg_singularity};
 pub use posture_relief::{NoRelief, Relief, ReliefUse, ToolTask, momentum_rate, posture_relief};
 pub use preferred_angles::preferred_angles;
 pub use pulse_modulation::{Modulation, Modulator};

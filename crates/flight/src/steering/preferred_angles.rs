@@ -1,9 +1,9 @@
 //! Preferred gimbal angles: where to start so that a torque in one direction meets no singularity for
 //! as long as may be. For planning on the ground: some hundred paths are tried.
 
-use super::gyro_steering::{mean_momentum, torque_axes, used_gyros};
-use super::{gyro_singularity, span::least_norm};
-use wrasse_hardware::{ControlMomentGyro, GYROS};
+use super::cmg_steering::{mean_momentum, torque_axes, used_cmgs};
+use super::{cmg_singularity, span::least_norm};
+use wrasse_hardware::{CMGS, ControlMomentGyro};
 use wrasse_spatial::{Scalar, Vec3};
 
 /// Starts that are tried before the best is improved.
@@ -19,7 +19,7 @@ const FIRST_STEP: f64 = 0.2;
 const HALVINGS: i32 = 8;
 /// Fractions of √2, √3, √5, √7, √11, √13, √17 and √19 in units of 2⁻³²: their multiples fill a cube of
 /// eight dimensions evenly.
-const STRIDES: [u32; GYROS] = [
+const STRIDES: [u32; CMGS] = [
     0x6a09_e667,
     0xbb67_ae85,
     0x3c6e_f372,
@@ -39,16 +39,16 @@ const STRIDES: [u32; GYROS] = [
 /// [`Vadali1990`](wrasse_spatial::references::Vadali1990) for the idea. The search is this file's own:
 /// starts are spread evenly and put to zero momentum, and the best is improved step by step.
 pub fn preferred_angles<T: Scalar>(
-    gyros: &[ControlMomentGyro<T>],
+    cmgs: &[ControlMomentGyro<T>],
     direction_B: Vec3<T>,
-) -> Option<[T; GYROS]> {
-    let (length, zero) = (direction_B.norm(), [T::zero(); GYROS]);
+) -> Option<[T; CMGS]> {
+    let (length, zero) = (direction_B.norm(), [T::zero(); CMGS]);
     if !(length.is_finite() && length > T::zero()) {
         return None;
     }
-    let used = used_gyros(gyros, [true; GYROS], &zero);
+    let used = used_cmgs(cmgs, [true; CMGS], &zero);
     let along_B = direction_B * (T::one() / length);
-    let search = Search { gyros, used, mean: mean_momentum(gyros, used), along_B };
+    let search = Search { cmgs, used, mean: mean_momentum(cmgs, used), along_B };
     let starts = || (0..CANDIDATES).filter_map(|k| search.without_momentum(&spread(k)));
     let reaches = starts().map(|start| search.path(&start, search.all_momentum()).reached);
     let goal = reaches.fold(T::zero(), T::max) * T::from_f64(CLEAR);
@@ -63,14 +63,14 @@ pub fn preferred_angles<T: Scalar>(
 }
 
 /// Evenly spread angles (rad), one set for each number.
-fn spread<T: Scalar>(number: u32) -> [T; GYROS] {
+fn spread<T: Scalar>(number: u32) -> [T; CMGS] {
     let turn = core::f64::consts::TAU / 4_294_967_296.0;
     STRIDES.map(|stride| T::from_f64(turn * f64::from(stride.wrapping_mul(number + 1))))
 }
 
 /// Angles to start from, and how far from singularities the path stays.
 struct Start<T> {
-    angles: [T; GYROS],
+    angles: [T; CMGS],
     clearance: T,
 }
 
@@ -82,8 +82,8 @@ struct Path<T> {
 
 /// What all paths share.
 struct Search<'a, T> {
-    gyros: &'a [ControlMomentGyro<T>],
-    used: [bool; GYROS],
+    cmgs: &'a [ControlMomentGyro<T>],
+    used: [bool; CMGS],
     mean: T,
     along_B: Vec3<T>,
 }
@@ -91,23 +91,23 @@ struct Search<'a, T> {
 impl<T: Scalar> Search<'_, T> {
     /// Momentum if all rotors were in line (N·m·s).
     fn all_momentum(&self) -> T {
-        let used = self.gyros.iter().zip(self.used).filter(|(_, used)| *used);
-        used.fold(T::zero(), |sum, (gyro, _)| sum + gyro.momentum.abs())
+        let used = self.cmgs.iter().zip(self.used).filter(|(_, used)| *used);
+        used.fold(T::zero(), |sum, (cmg, _)| sum + cmg.momentum.abs())
     }
-    /// What the momentum of the gyros in use lacks of a wanted one, over the mean (–).
-    fn lacking(&self, angles: &[T; GYROS], wanted: Vec3<T>) -> Vec3<T> {
-        let each = self.gyros.iter().zip(angles).zip(self.used).filter(|(_, used)| *used);
+    /// What the momentum of the CMGs in use lacks of a wanted one, over the mean (–).
+    fn lacking(&self, angles: &[T; CMGS], wanted: Vec3<T>) -> Vec3<T> {
+        let each = self.cmgs.iter().zip(angles).zip(self.used).filter(|(_, used)| *used);
         let momentum = each
-            .fold(Vec3::zero(), |h, ((gyro, &angle), _)| h + gyro.spin_axis(angle) * gyro.momentum);
+            .fold(Vec3::zero(), |h, ((cmg, &angle), _)| h + cmg.spin_axis(angle) * cmg.momentum);
         (wanted - momentum) * (T::one() / self.mean)
     }
     /// Turns (rad) of least norm that bring the momentum towards a wanted one.
-    fn turns(&self, angles: &[T; GYROS], wanted: Vec3<T>) -> [T; GYROS] {
-        let axes = torque_axes(self.gyros, self.used, self.mean, angles);
+    fn turns(&self, angles: &[T; CMGS], wanted: Vec3<T>) -> [T; CMGS] {
+        let axes = torque_axes(self.cmgs, self.used, self.mean, angles);
         least_norm(&axes, &self.used, self.lacking(angles, wanted))
     }
     /// The nearest angles with no momentum in sum, if the way there leads to any.
-    fn without_momentum(&self, from: &[T; GYROS]) -> Option<[T; GYROS]> {
+    fn without_momentum(&self, from: &[T; CMGS]) -> Option<[T; CMGS]> {
         let mut angles = *from;
         for _ in 0..30 {
             let turns = self.turns(&angles, Vec3::zero());
@@ -118,14 +118,14 @@ impl<T: Scalar> Search<'_, T> {
         }
         let left = self.lacking(&angles, Vec3::zero()).norm();
         let there = |k: usize| if self.used[k] { wrapped(angles[k]) } else { T::zero() };
-        let found = left < T::epsilon().sqrt() && self.used != [false; GYROS];
+        let found = left < T::epsilon().sqrt() && self.used != [false; CMGS];
         found.then(|| core::array::from_fn(there))
     }
     /// The path of the pseudo-inverse along the direction as far as a goal (N·m·s).
-    fn path(&self, start: &[T; GYROS], goal: T) -> Path<T> {
+    fn path(&self, start: &[T; CMGS], goal: T) -> Path<T> {
         let step = self.all_momentum() / T::from_f64(f64::from(STEPS));
         let (mut angles, mut reached) = (*start, T::zero());
-        let mut clearance = gyro_singularity(self.gyros, &self.used, &angles);
+        let mut clearance = cmg_singularity(self.cmgs, &self.used, &angles);
         while reached < goal {
             let next = (reached + step).min(goal);
             // Twice: the second turn takes back what the first strays.
@@ -140,7 +140,7 @@ impl<T: Scalar> Search<'_, T> {
             if astray * self.mean > step * T::from_f64(0.1) {
                 return Path { reached, clearance: T::zero() };
             }
-            clearance = clearance.min(gyro_singularity(self.gyros, &self.used, &angles));
+            clearance = clearance.min(cmg_singularity(self.cmgs, &self.used, &angles));
             reached = next;
         }
         Path { reached, clearance }
@@ -150,7 +150,7 @@ impl<T: Scalar> Search<'_, T> {
     fn improved(&self, mut best: Start<T>, goal: T) -> Start<T> {
         let mut step = T::from_f64(FIRST_STEP);
         for _ in 0..HALVINGS {
-            for k in 0..2 * GYROS {
+            for k in 0..2 * CMGS {
                 let mut moved = best.angles;
                 moved[k / 2] += if k % 2 == 0 { step } else { -step };
                 let Some(angles) = self.without_momentum(&moved) else { continue };
@@ -166,7 +166,7 @@ impl<T: Scalar> Search<'_, T> {
 }
 
 /// Largest magnitude.
-fn largest<T: Scalar>(of: &[T; GYROS]) -> T {
+fn largest<T: Scalar>(of: &[T; CMGS]) -> T {
     of.iter().fold(T::zero(), |most, x| most.max(x.abs()))
 }
 

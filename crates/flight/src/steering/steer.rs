@@ -1,10 +1,10 @@
 //! All groups together: who takes which part of the wanted torque and force.
 
 use crate::steering::{
-    GyroLaw, Modulation, Modulator, Selection, Unloading, WheelLaw, WrenchAxes, gyro_rates,
-    gyro_singularity, thruster_duties, wheel_torques,
+    CmgLaw, Modulation, Modulator, Selection, Unloading, WheelLaw, WrenchAxes, cmg_rates,
+    cmg_singularity, thruster_duties, wheel_torques,
 };
-use wrasse_hardware::{ActuatorCommand, ActuatorReadings, Actuators, GYROS, THRUSTERS, WHEELS};
+use wrasse_hardware::{ActuatorCommand, ActuatorReadings, Actuators, CMGS, THRUSTERS, WHEELS};
 use wrasse_spatial::{Scalar, SpatialForce, Vec3};
 
 /// A unit of the equipment, by its number in its group.
@@ -13,7 +13,7 @@ pub enum Unit {
     /// A reaction wheel.
     Wheel(usize),
     /// A control moment gyro.
-    Gyro(usize),
+    Cmg(usize),
     /// A thruster.
     Thruster(usize),
 }
@@ -26,13 +26,13 @@ pub struct SteeringSetup<T> {
     /// How torque is shared among the wheels.
     pub wheels: WheelLaw<T>,
     /// How the gimbals are turned.
-    pub gyros: GyroLaw<T>,
+    pub cmgs: CmgLaw<T>,
     /// How thrusters are pulsed.
     pub modulation: Modulation<T>,
     /// Whether a force counts that thrusters cannot give, or cannot help giving; if not, the base goes
     /// where it is pushed.
     pub holds_position: bool,
-    /// When the thrusters empty wheels and gyros; `None`: never.
+    /// When the thrusters empty wheels and CMGs; `None`: never.
     pub unloading: Option<Unloading<T>>,
 }
 
@@ -56,12 +56,12 @@ pub struct SteeringReport<T> {
     pub wanted: SpatialForce<T>,
     /// What of it no actuator could give (N·m, N).
     pub missing: SpatialForce<T>,
-    /// Momentum in wheels and gyros, by their readings, base axes (N·m·s).
+    /// Momentum in wheels and CMGs, by their readings, base axes (N·m·s).
     pub stored_B: Vec3<T>,
-    /// Distance of the gyros from a singular setting, det(A Aᵀ) for unit momenta (–); one without
-    /// gyros.
+    /// Distance of the CMGs from a singular setting, det(A Aᵀ) for unit momenta (–); one without
+    /// CMGs.
     pub singularity: T,
-    /// Whether the thrusters are emptying wheels and gyros.
+    /// Whether the thrusters are emptying wheels and CMGs.
     pub unloading: bool,
 }
 
@@ -100,12 +100,12 @@ impl<T: Scalar> Steered<T> {
 pub struct Steering<T> {
     setup: SteeringSetup<T>,
     usable_wheels: [bool; WHEELS],
-    usable_gyros: [bool; GYROS],
+    usable_cmgs: [bool; CMGS],
     usable_thrusters: [bool; THRUSTERS],
     modulators: [Modulator<T>; THRUSTERS],
     /// Clock of the waves by which some laws shake the gimbals (s).
     time: T,
-    /// What wheels and gyros stored when they were last read (N·m·s), and the change that was
+    /// What wheels and CMGs stored when they were last read (N·m·s), and the change that was
     /// due over the period (N·m·s), base axes.
     before: Option<(Vec3<T>, Vec3<T>)>,
     /// What they were asked for and have not yet given (N·m·s).
@@ -114,7 +114,7 @@ pub struct Steering<T> {
     heard: ActuatorReadings<T>,
 }
 
-/// How fast wheels and gyros are asked for what they owe (1/s): slower than their servos answer. In
+/// How fast wheels and CMGs are asked for what they owe (1/s): slower than their servos answer. In
 /// periods that are longer than this takes: all of it in one, for more would come back larger.
 const CATCH_UP: f64 = 10.0;
 
@@ -124,7 +124,7 @@ impl<T: Scalar> Steering<T> {
         Self {
             setup: *setup,
             usable_wheels: [true; WHEELS],
-            usable_gyros: [true; GYROS],
+            usable_cmgs: [true; CMGS],
             usable_thrusters: [true; THRUSTERS],
             modulators: [Modulator::default(); THRUSTERS],
             time: T::zero(),
@@ -154,7 +154,7 @@ impl<T: Scalar> Steering<T> {
     pub fn isolate(&mut self, unit: Unit) {
         let (flags, i): (&mut [bool], usize) = match unit {
             Unit::Wheel(i) => (&mut self.usable_wheels, i),
-            Unit::Gyro(i) => (&mut self.usable_gyros, i),
+            Unit::Cmg(i) => (&mut self.usable_cmgs, i),
             Unit::Thruster(i) => (&mut self.usable_thrusters, i),
         };
         if let Some(usable) = flags.get_mut(i) {
@@ -164,9 +164,9 @@ impl<T: Scalar> Steering<T> {
 
     /// What the actuators are told for the coming period.
     ///
-    /// Gyros come first, then wheels. Thrusters give the force, what of the torque those cannot give,
+    /// CMGs come first, then wheels. Thrusters give the force, what of the torque those cannot give,
     /// and what empties them. They are pulsed: what they will really give over the period is taken off
-    /// before gyros and wheels are told, so these smooth the pulses.
+    /// before CMGs and wheels are told, so these smooth the pulses.
     ///
     /// A unit whose reading is no number is told nothing; its momentum counts as it was last heard.
     pub fn steer(&mut self, needs: &Needs<T>, readings: &ActuatorReadings<T>) -> Steered<T> {
@@ -199,12 +199,12 @@ impl<T: Scalar> Steering<T> {
             rest_B -= steered.expected_B;
         }
         if self.stores_momentum() {
-            let (wheels, gyros, missing_B) = self.inside(rest_B, needs, stored_B, readings);
+            let (wheels, cmgs, missing_B) = self.inside(rest_B, needs, stored_B, readings);
             // What is missing is not owed: it was told.
             let due_B = due(rest_B, needs, stored_B) + missing_B;
             self.before = Some((stored_B, due_B * needs.period));
             steered.command.wheel_torque = wheels;
-            steered.command.gimbal_rate = gyros;
+            steered.command.gimbal_rate = cmgs;
             let change_B = self.change_inside(&steered.command, needs.period, readings);
             steered.expected_B += due(change_B, needs, stored_B);
             missing.torque = self.of_what_is_wanted(missing_B, needs.period);
@@ -213,33 +213,33 @@ impl<T: Scalar> Steering<T> {
             wanted: needs.wanted,
             missing,
             stored_B,
-            singularity: if actuators.gyros.is_empty() {
+            singularity: if actuators.cmgs.is_empty() {
                 T::one()
             } else {
-                gyro_singularity(&actuators.gyros, &self.usable_gyros, &readings.gimbal_angle)
+                cmg_singularity(&actuators.cmgs, &self.usable_cmgs, &readings.gimbal_angle)
             },
             unloading: self.setup.unloading.is_some_and(|u| u.active),
         };
-        self.time = self.setup.gyros.within_a_wave(self.time + needs.period);
+        self.time = self.setup.cmgs.within_a_wave(self.time + needs.period);
         steered
     }
 
     /// Whether anything can take up momentum.
     fn stores_momentum(&self) -> bool {
         let actuators = &self.setup.actuators;
-        !(actuators.wheels.is_empty() && actuators.gyros.is_empty())
+        !(actuators.wheels.is_empty() && actuators.cmgs.is_empty())
     }
 
-    /// Momentum in wheels and gyros by what was last heard of each, base axes (N·m·s).
+    /// Momentum in wheels and CMGs by what was last heard of each, base axes (N·m·s).
     fn stored(&mut self, readings: &ActuatorReadings<T>) -> Vec3<T> {
         let heard = &mut self.heard;
         keep_numbers(&mut heard.wheel_speed, &readings.wheel_speed);
         keep_numbers(&mut heard.gimbal_angle, &readings.gimbal_angle);
         let actuators = &self.setup.actuators;
-        actuators.gyro_momentum(&heard.gimbal_angle) + actuators.wheel_momentum(&heard.wheel_speed)
+        actuators.cmg_momentum(&heard.gimbal_angle) + actuators.wheel_momentum(&heard.wheel_speed)
     }
 
-    /// Book what wheels and gyros gave of what they were last asked for: friction, servos and motors
+    /// Book what wheels and CMGs gave of what they were last asked for: friction, servos and motors
     /// that are slower than the period, a gimbal that is stuck all leave something owing.
     fn settle(&mut self, stored_B: Vec3<T>) {
         let Some((before_B, due_B)) = self.before.take() else { return };
@@ -275,16 +275,16 @@ impl<T: Scalar> Steering<T> {
         needs: &Needs<T>,
         stored_B: Vec3<T>,
         readings: &ActuatorReadings<T>,
-    ) -> ([T; WHEELS], [T; GYROS], Vec3<T>) {
+    ) -> ([T; WHEELS], [T; CMGS], Vec3<T>) {
         let setup = &self.setup;
-        let Actuators { wheels, gyros, .. } = &setup.actuators;
+        let Actuators { wheels, cmgs, .. } = &setup.actuators;
         let mut left_B =
             due(torque_B, needs, stored_B) + self.owed_B * Self::catch_up(needs.period);
-        let mut rates = [T::zero(); GYROS];
+        let mut rates = [T::zero(); CMGS];
         let mut torques = [T::zero(); WHEELS];
-        if !gyros.is_empty() {
-            let (usable, angles) = (&self.usable_gyros, &readings.gimbal_angle);
-            let found = gyro_rates(gyros, usable, &setup.gyros, left_B, angles, self.time);
+        if !cmgs.is_empty() {
+            let (usable, angles) = (&self.usable_cmgs, &readings.gimbal_angle);
+            let found = cmg_rates(cmgs, usable, &setup.cmgs, left_B, angles, self.time);
             (rates, left_B) = (found.values, found.missing_B);
         }
         if !wheels.is_empty() {
@@ -304,16 +304,16 @@ impl<T: Scalar> Steering<T> {
         period: T,
         readings: &ActuatorReadings<T>,
     ) -> Vec3<T> {
-        let Actuators { wheels, gyros, .. } = &self.setup.actuators;
+        let Actuators { wheels, cmgs, .. } = &self.setup.actuators;
         let mut change_B = Vec3::zero();
         for (i, wheel) in wheels.iter().enumerate() {
             change_B += wheel.axis_B * command.wheel_torque[i];
         }
-        for (i, gyro) in gyros.iter().enumerate() {
-            let rate = gyro.mean_rate(readings.gimbal_rate[i], command.gimbal_rate[i], period);
+        for (i, cmg) in cmgs.iter().enumerate() {
+            let rate = cmg.mean_rate(readings.gimbal_rate[i], command.gimbal_rate[i], period);
             if rate.is_finite() {
-                let axis_B = gyro.torque_axis(self.heard.gimbal_angle[i]);
-                change_B += axis_B * (gyro.momentum * rate);
+                let axis_B = cmg.torque_axis(self.heard.gimbal_angle[i]);
+                change_B += axis_B * (cmg.momentum * rate);
             }
         }
         change_B

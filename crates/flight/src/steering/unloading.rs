@@ -1,11 +1,11 @@
-//! Unloading: thrusters take from wheels and gyros the momentum that they hold.
+//! Unloading: thrusters take from wheels and CMGs the momentum that they hold.
 
 use wrasse_spatial::{Scalar, Vec3};
 
 /// When unloading starts and stops, and how fast it goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unloading<T> {
-    /// What wheels and gyros should hold, base axes (N·m·s).
+    /// What wheels and CMGs should hold, base axes (N·m·s).
     pub target_B: Vec3<T>,
     /// Rate at which what is beyond the target fades (1/s).
     pub gain: T,
@@ -20,8 +20,8 @@ pub struct Unloading<T> {
 impl<T: Scalar> Unloading<T> {
     /// Torque that the thrusters should exert on the vehicle, base axes (N·m).
     ///
-    /// The attitude law must be told of it: wheels and gyros give the opposite, and so lose what they
-    /// hold. `stored_B` is the momentum of wheels and gyros against the base (N·m·s).
+    /// The attitude law must be told of it: wheels and CMGs give the opposite, and so lose what they
+    /// hold. `stored_B` is the momentum of wheels and CMGs against the base (N·m·s).
     pub fn torque(&mut self, stored_B: Vec3<T>) -> Vec3<T> {
         let beyond = stored_B - self.target_B;
         let size = beyond.norm();

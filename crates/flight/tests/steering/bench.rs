@@ -2,10 +2,10 @@
 //! nearly. Not the simulated world: a few lines that can be read at once.
 
 use wrasse_flight::steering::{
-    GyroLaw, Modulation, Needs, Steered, Steering, SteeringSetup, Unloading, WheelLaw,
+    CmgLaw, Modulation, Needs, Steered, Steering, SteeringSetup, Unloading, WheelLaw,
 };
 use wrasse_hardware::{
-    ActuatorCommand, ActuatorReadings, Actuators, ControlMomentGyro, GYROS, List, ReactionWheel,
+    ActuatorCommand, ActuatorReadings, Actuators, CMGS, ControlMomentGyro, List, ReactionWheel,
     Thruster, WHEELS,
 };
 use wrasse_spatial::{SpatialForce, Vec3, vec3};
@@ -26,9 +26,9 @@ pub(crate) fn wheels(torque_limit: f64) -> Vec<ReactionWheel<f64>> {
     vec![tilted(1.0, 1.0), tilted(-1.0, 1.0), tilted(-1.0, -1.0), tilted(1.0, -1.0)]
 }
 
-/// A pyramid of four gyros of 15 N·m·s, 0.8 rad/s.
-pub(crate) fn gyros() -> Vec<ControlMomentGyro<f64>> {
-    let gyro = |gimbal: [f64; 3], spin: [f64; 3]| ControlMomentGyro {
+/// A pyramid of four CMGs of 15 N·m·s, 0.8 rad/s.
+pub(crate) fn cmgs() -> Vec<ControlMomentGyro<f64>> {
+    let cmg = |gimbal: [f64; 3], spin: [f64; 3]| ControlMomentGyro {
         gimbal_axis_B: Vec3::from_array(gimbal),
         spin_axis_B: Vec3::from_array(spin),
         momentum: 15.0,
@@ -36,10 +36,10 @@ pub(crate) fn gyros() -> Vec<ControlMomentGyro<f64>> {
         ..ControlMomentGyro::default()
     };
     vec![
-        gyro([0.8, 0.0, 0.6], [0.0, 1.0, 0.0]),
-        gyro([0.0, 0.8, 0.6], [-1.0, 0.0, 0.0]),
-        gyro([-0.8, 0.0, 0.6], [0.0, -1.0, 0.0]),
-        gyro([0.0, -0.8, 0.6], [1.0, 0.0, 0.0]),
+        cmg([0.8, 0.0, 0.6], [0.0, 1.0, 0.0]),
+        cmg([0.0, 0.8, 0.6], [-1.0, 0.0, 0.0]),
+        cmg([-0.8, 0.0, 0.6], [0.0, -1.0, 0.0]),
+        cmg([0.0, -0.8, 0.6], [1.0, 0.0, 0.0]),
     ]
 }
 
@@ -65,12 +65,12 @@ pub(crate) fn thrusters(force: f64) -> Vec<Thruster<f64>> {
 
 pub(crate) fn actuators(
     wheels: &[ReactionWheel<f64>],
-    gyros: &[ControlMomentGyro<f64>],
+    cmgs: &[ControlMomentGyro<f64>],
     thrusters: &[Thruster<f64>],
 ) -> Actuators<f64> {
     Actuators {
         wheels: List::new(wheels),
-        gyros: List::new(gyros),
+        cmgs: List::new(cmgs),
         thrusters: List::new(thrusters),
         tank: None,
     }
@@ -81,7 +81,7 @@ pub(crate) fn setup(actuators: &Actuators<f64>) -> SteeringSetup<f64> {
     SteeringSetup {
         actuators: *actuators,
         wheels: WheelLaw::default(),
-        gyros: GyroLaw::default(),
+        cmgs: CmgLaw::default(),
         modulation: Modulation { gain: 10.0, lag: 1.0, on_level: 0.45, off_level: 0.15 },
         holds_position: true,
         unloading: None,
@@ -131,7 +131,7 @@ impl Bench {
     /// Momentum inside, base axes (N·m·s).
     pub(crate) fn stored(&self) -> Vec3<f64> {
         self.actuators.wheel_momentum(&self.readings.wheel_speed)
-            + self.actuators.gyro_momentum(&self.readings.gimbal_angle)
+            + self.actuators.cmg_momentum(&self.readings.gimbal_angle)
     }
     /// One period; the mean torque (N·m) and force (N) that the bodies feel of it, about the centre
     /// of mass: what the momentum inside loses, its gyroscopic torque, and the pulses.
@@ -149,7 +149,7 @@ impl Bench {
             let torque = told.wheel_torque[k] - self.friction[k];
             readings.wheel_speed[k] += torque / wheel.inertia * period;
         }
-        for k in (0..GYROS).filter(|&k| self.stuck != Some(k)) {
+        for k in (0..CMGS).filter(|&k| self.stuck != Some(k)) {
             // A lag of first order, solved over the period.
             let left = (-self.servo * period).exp();
             let behind = readings.gimbal_rate[k] - told.gimbal_rate[k];
@@ -177,16 +177,16 @@ pub(crate) fn pulses(
     SpatialForce::new(about_origin - needs.p_BScm_B.cross(force), force)
 }
 
-/// What the gyros' momentum changes by at these gimbal rates, by differences (N·m).
-pub(crate) fn gyro_torque(
+/// What the CMGs' momentum changes by at these gimbal rates, by differences (N·m).
+pub(crate) fn cmg_torque(
     actuators: &Actuators<f64>,
-    angles: &[f64; GYROS],
-    rates: &[f64; GYROS],
+    angles: &[f64; CMGS],
+    rates: &[f64; CMGS],
 ) -> Vec3<f64> {
     let h = 1e-4;
     let at = |t: f64| {
-        let moved: [f64; GYROS] = std::array::from_fn(|k| angles[k] + rates[k] * t);
-        actuators.gyro_momentum(&moved)
+        let moved: [f64; CMGS] = std::array::from_fn(|k| angles[k] + rates[k] * t);
+        actuators.cmg_momentum(&moved)
     };
     (at(h) - at(-h)) * (0.5 / h)
 }

@@ -10,9 +10,9 @@ mod arms;
 mod random_robot;
 
 mod bench;
+mod cmgs;
 #[path = "../../../mission/tests/figures/mod.rs"]
 mod figures;
-mod gyros;
 mod owed;
 mod posture_relief;
 mod pulse_modulation;

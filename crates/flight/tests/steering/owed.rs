@@ -1,6 +1,6 @@
 //! What servos, friction and failures take is asked for again; what was reported missing is not.
 
-use crate::bench::{Bench, PERIOD, actuators, gyros, needs, setup, size, wheels};
+use crate::bench::{Bench, PERIOD, actuators, cmgs, needs, setup, size, wheels};
 use wrasse_flight::steering::{Steering, Unit};
 use wrasse_hardware::ActuatorReadings;
 use wrasse_spatial::Vec3;
@@ -12,8 +12,8 @@ fn with_wheels() -> Bench {
     Bench::new(&setup(&actuators(&wheels(0.2), &[], &[])))
 }
 
-fn with_gyros() -> Bench {
-    Bench::new(&setup(&actuators(&[], &gyros(), &[])))
+fn with_cmgs() -> Bench {
+    Bench::new(&setup(&actuators(&[], &cmgs(), &[])))
 }
 
 /// Bearings that drag by 0.02 N·m take a quarter of the torque at first. What is felt comes back by
@@ -38,7 +38,7 @@ fn what_friction_takes_dies_out_at_the_stated_rate() {
 #[test]
 fn what_a_lagging_servo_holds_back_is_given_later() {
     let needs = needs([3.0, -2.0, 4.0], [0.0; 3]);
-    let mut bench = with_gyros();
+    let mut bench = with_cmgs();
     bench.servo = 30.0;
     let mut felt = Vec3::zero();
     for _ in 0..100 {
@@ -53,7 +53,7 @@ fn what_a_lagging_servo_holds_back_is_given_later() {
 #[test]
 fn a_stuck_gimbal_that_nobody_knows_of_is_made_up_for() {
     let needs = needs([2.0, -1.0, 3.0], [0.0; 3]);
-    let mut bench = with_gyros();
+    let mut bench = with_cmgs();
     bench.stuck = Some(1);
     let at_first = size(bench.step(&needs).torque - needs.wanted.torque);
     for _ in 0..150 {
@@ -80,11 +80,11 @@ fn nothing_winds_up_while_more_is_wanted_than_wheels_have() {
     assert!(worst < 1e-13, "{worst:e} N·m that nobody wanted");
 }
 
-/// The same with gyros, which come to stand still at the end of what they hold. What their torque axes
+/// The same with CMGs, which come to stand still at the end of what they hold. What their torque axes
 /// turn within a period is owed, and no more: measured 7e-5 N·m·s, of 561 that were missing.
 #[test]
-fn nothing_winds_up_while_more_is_wanted_than_gyros_hold() {
-    let mut bench = with_gyros();
+fn nothing_winds_up_while_more_is_wanted_than_cmgs_hold() {
+    let mut bench = with_cmgs();
     let mut missing = 0.0;
     for _ in 0..500 {
         bench.step(&needs([20.0, -60.0, 30.0], [0.0; 3]));
@@ -167,7 +167,7 @@ fn an_isolated_wheel_that_runs_down_is_held_against() {
 #[test]
 fn a_reading_that_is_no_number_silences_its_unit_alone_and_for_no_longer() {
     let needs = needs([0.05, -0.03, 0.06], [0.0; 3]);
-    let mut bench = Bench::new(&setup(&actuators(&wheels(0.2), &gyros(), &[])));
+    let mut bench = Bench::new(&setup(&actuators(&wheels(0.2), &cmgs(), &[])));
     let heard = |bench: &mut Bench, spoilt: f64| {
         let told = bench.readings;
         bench.readings.wheel_speed[1] += spoilt;

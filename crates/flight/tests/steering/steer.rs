@@ -1,13 +1,13 @@
 //! All groups together: what is told and what is missing make up what was wanted.
 
 use crate::bench::{
-    Bench, PERIOD, actuators, gyro_torque, gyros, needs, pulses, setup, size, thrusters, unloading,
+    Bench, PERIOD, actuators, cmg_torque, cmgs, needs, pulses, setup, size, thrusters, unloading,
     wheels,
 };
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use wrasse_flight::steering::{Needs, Steered, Steering, SteeringSetup, Unit};
-use wrasse_hardware::{ActuatorReadings, Actuators, GYROS};
+use wrasse_hardware::{ActuatorReadings, Actuators, CMGS};
 use wrasse_spatial::{SpatialForce, Vec3, vec3};
 
 fn cases(cases: u32) -> ProptestConfig {
@@ -55,28 +55,28 @@ fn felt(
 ) -> SpatialForce<f64> {
     let motors = actuators.wheels.iter().zip(told.command.wheel_torque);
     let wheels = motors.fold(Vec3::zero(), |sum, (wheel, torque)| sum + wheel.axis_B * torque);
-    let gyros = gyro_torque(actuators, &readings.gimbal_angle, &told.command.gimbal_rate);
+    let cmgs = cmg_torque(actuators, &readings.gimbal_angle, &told.command.gimbal_rate);
     let h = actuators.wheel_momentum(&readings.wheel_speed)
-        + actuators.gyro_momentum(&readings.gimbal_angle);
-    let inside = -(wheels + gyros) - needs.w_NB_B.cross(h);
+        + actuators.cmg_momentum(&readings.gimbal_angle);
+    let inside = -(wheels + cmgs) - needs.w_NB_B.cross(h);
     pulses(actuators, &told.command, needs) + SpatialForce::new(inside, Vec3::zero())
 }
 
 proptest! {
     #![proptest_config(cases(512))]
 
-    /// From a hundredth of what the set can give to ten times as much. The torques of the gyros by
-    /// differences. Measured 1.2e-8 N·m off with gyros, 1.8e-15 without.
+    /// From a hundredth of what the set can give to ten times as much. The torques of the CMGs by
+    /// differences. Measured 1.2e-8 N·m off with CMGs, 1.8e-15 without.
     #[test]
     fn what_is_felt_and_what_is_missing_is_what_was_wanted(
         needs in some_needs(1.0, 10.0), size_of in 0.01..10.0_f64, readings in readings()
     ) {
         let needs = Needs { wanted: needs.wanted * size_of, ..needs };
-        for (wheels, gyros, off_by) in
-            [(wheels(0.2), vec![], 1e-13), (vec![], gyros(), 1e-7), (wheels(0.2), gyros(), 1e-7)]
+        for (wheels, cmgs, off_by) in
+            [(wheels(0.2), vec![], 1e-13), (vec![], cmgs(), 1e-7), (wheels(0.2), cmgs(), 1e-7)]
         {
             for thrusters in [vec![], thrusters(22.0)] {
-                let all = actuators(&wheels, &gyros, &thrusters);
+                let all = actuators(&wheels, &cmgs, &thrusters);
                 let told = Steering::new(&setup(&all)).steer(&needs, &readings);
                 let sum = felt(&all, &needs, &readings, &told).torque + told.report.missing.torque;
                 let off = size(sum - needs.wanted.torque);
@@ -89,7 +89,7 @@ proptest! {
 
 /// Wanted torques well within limits, the base turning at about 1 deg/s with 20 N·m·s inside: without
 /// what is taken against `w × h` 0.06 and 0.02 N·m would be wrong. Measured 3e-17 N·m missing; felt
-/// 1.4e-11 N·m off with gyros, whose torque is by differences.
+/// 1.4e-11 N·m off with CMGs, whose torque is by differences.
 #[test]
 fn small_torques_are_given_whole_on_a_turning_base() {
     let mut needs = needs([0.05, -0.03, 0.06], [0.0; 3]);
@@ -99,7 +99,7 @@ fn small_torques_are_given_whole_on_a_turning_base() {
         gimbal_angle: [0.4, -0.2, 0.1, 0.5, 0.0, 0.0, 0.0, 0.0],
         ..ActuatorReadings::default()
     };
-    for all in [actuators(&wheels(0.2), &[], &[]), actuators(&[], &gyros(), &[])] {
+    for all in [actuators(&wheels(0.2), &[], &[]), actuators(&[], &cmgs(), &[])] {
         let told = Steering::new(&setup(&all)).steer(&needs, &readings);
         let missing = size(told.report.missing.torque);
         assert!(missing < 1e-14, "{missing:e} N·m missing");
@@ -156,12 +156,12 @@ fn thrusters_that_do_not_hold_the_position_miss_no_force() {
 }
 
 /// Thrusters of 2 N hold the position in pulses on levers of a metre, 0.2 m beside the centre of mass;
-/// gyros take the torque of each pulse off. Gimbals turn their torque axes on the way: measured
+/// CMGs take the torque of each pulse off. Gimbals turn their torque axes on the way: measured
 /// 0.0050 N·m off in a period, where the pulses give up to 3.5.
 #[test]
-fn gyros_take_off_what_the_pulses_give() {
+fn cmgs_take_off_what_the_pulses_give() {
     let needs = needs([1.0, -0.5, 0.7], [0.6, -0.3, 0.4]);
-    let mut bench = Bench::new(&setup(&actuators(&[], &gyros(), &thrusters(2.0))));
+    let mut bench = Bench::new(&setup(&actuators(&[], &cmgs(), &thrusters(2.0))));
     let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
     for _ in 0..250 {
         let felt = bench.step(&needs).torque;
@@ -233,7 +233,7 @@ fn what_is_isolated_is_told_nothing_and_the_others_take_over() {
     let fired = fires(&bench).unwrap();
     bench.steering.isolate(Unit::Wheel(1));
     bench.steering.isolate(Unit::Thruster(fired));
-    bench.steering.isolate(Unit::Gyro(GYROS + 3));
+    bench.steering.isolate(Unit::Cmg(CMGS + 3));
     for _ in 0..100 {
         let stored_B = bench.stored();
         bench.step(&needs);

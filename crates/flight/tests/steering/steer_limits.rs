@@ -1,11 +1,11 @@
 //! Whatever sets, wants and readings there are: no command beyond limits, none that is no number.
 
-use crate::bench::{Bench, PERIOD, actuators, gyros, needs, setup, thrusters, unloading, wheels};
+use crate::bench::{Bench, PERIOD, actuators, cmgs, needs, setup, thrusters, unloading, wheels};
 use proptest::num::f64::{ANY, INFINITE, NEGATIVE, NORMAL, POSITIVE, QUIET_NAN, SUBNORMAL, ZERO};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use wrasse_flight::steering::{
-    Damping, GyroLaw, GyroSharing, Modulation, Needs, Steering, SteeringSetup, Unloading, Waves,
+    CmgLaw, CmgSharing, Damping, Modulation, Needs, Steering, SteeringSetup, Unloading, Waves,
     WheelLaw, WheelSharing,
 };
 use wrasse_hardware::{ActuatorReadings, Actuators, THRUSTERS};
@@ -46,10 +46,10 @@ fn decent_period() -> impl Strategy<Value = Period> {
     (three(30.0), three(100.0), three(0.1), eight(900.0), eight(4.0))
 }
 
-/// The first so many wheels, gyros and thrusters.
+/// The first so many wheels, CMGs and thrusters.
 fn some_actuators() -> impl Strategy<Value = Actuators<f64>> {
     (0..=4_usize, 0..=4_usize, 0..=24_usize)
-        .prop_map(|(w, g, t)| actuators(&wheels(0.2)[..w], &gyros()[..g], &thrusters(22.0)[..t]))
+        .prop_map(|(w, g, t)| actuators(&wheels(0.2)[..w], &cmgs()[..g], &thrusters(22.0)[..t]))
 }
 
 fn some_setup<T: Scalar>(
@@ -69,11 +69,11 @@ fn some_setup<T: Scalar>(
             sharing: if robust { WheelSharing::MinimumPeak } else { WheelSharing::PseudoInverse },
             null_gain: c(0.05),
         },
-        gyros: GyroLaw {
+        cmgs: CmgLaw {
             sharing: if robust {
-                GyroSharing::GeneralizedSingularityRobust(damping, waves)
+                CmgSharing::GeneralizedSingularityRobust(damping, waves)
             } else {
-                GyroSharing::PseudoInverse
+                CmgSharing::PseudoInverse
             },
             null_gain: c(0.2),
         },
@@ -118,7 +118,7 @@ fn steered<T: Scalar>(setup: &SteeringSetup<T>, periods: &[Period]) -> (bool, bo
             within &= torque.abs() <= limit;
         }
         for (k, &rate) in told.command.gimbal_rate.iter().enumerate() {
-            let limit = all.gyros.get(k).map_or(T::zero(), |g| g.rate_limit);
+            let limit = all.cmgs.get(k).map_or(T::zero(), |g| g.rate_limit);
             within &= rate.abs() <= limit;
         }
         for (k, &on) in told.command.thruster_on.iter().enumerate() {
@@ -163,7 +163,7 @@ proptest! {
 /// died out. Measured 3e-32 N·m missing.
 #[test]
 fn nothing_that_came_in_spoils_the_steering_for_ever() {
-    let all = actuators(&wheels(0.2), &gyros(), &thrusters(2.0));
+    let all = actuators(&wheels(0.2), &cmgs(), &thrusters(2.0));
     let good = needs([0.3, -0.2, 0.4], [0.5, 0.2, -0.3]);
     for bad in [f64::NAN, f64::INFINITY, -f64::MAX] {
         let mut bench = Bench::new(&setup(&all));
@@ -190,7 +190,7 @@ proptest! {
         wants in prop::collection::vec(
             (prop::array::uniform3(-20.0..20.0), prop::array::uniform3(-20.0..20.0)), 200)
     ) {
-        let mut bench = Bench::new(&setup(&actuators(&[], &gyros(), &thrusters(22.0))));
+        let mut bench = Bench::new(&setup(&actuators(&[], &cmgs(), &thrusters(22.0))));
         let (mut open_for, mut shortest) = ([0.0_f64; THRUSTERS], f64::INFINITY);
         for (torque, force) in wants {
             bench.step(&needs(torque, force));

@@ -7,7 +7,7 @@ use wrasse_spatial::Vec3;
 /// One summand of a solid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Piece {
-    /// From `-half` to `+half`: a wheel, or a gyro's torque at one gimbal angle.
+    /// From `-half` to `+half`: a wheel, or a CMG's torque at one gimbal angle.
     Segment {
         /// From the middle to one end.
         half: Vec3<f64>,
@@ -17,7 +17,7 @@ pub enum Piece {
         /// The other end.
         end: Vec3<f64>,
     },
-    /// A disc about zero: a gyro at any gimbal angle.
+    /// A disc about zero: a CMG at any gimbal angle.
     Disc {
         /// Unit normal: the gimbal axis (–).
         axis: Vec3<f64>,
@@ -31,7 +31,7 @@ pub enum Piece {
     },
 }
 
-/// All that can be reached as a sum of one point from each piece. For gyros, whose single momenta lie
+/// All that can be reached as a sum of one point from each piece. For CMGs, whose single momenta lie
 /// on the rims of the discs, it is the convex hull of what can be reached: it closes the windows about
 /// the gimbal axes.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -1,24 +1,24 @@
-//! Gyro steering on the pyramid of four: printed formulas, the classic test, laws.
+//! CMG steering on the pyramid of four: printed formulas, the classic test, laws.
 
 use crate::figures::Page;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use wrasse_flight::steering::{
-    Damping, GyroLaw, GyroSharing, Waves, gyro_rates, gyro_singularity, preferred_angles,
+    CmgLaw, CmgSharing, Damping, Waves, cmg_rates, cmg_singularity, preferred_angles,
 };
-use wrasse_hardware::{ControlMomentGyro, GYROS};
+use wrasse_hardware::{CMGS, ControlMomentGyro};
 use wrasse_spatial::{Real, Vec3, vec3};
 
 /// Sine and cosine of the skew angle of 53.13°.
 const S: f64 = 0.8;
 const C: f64 = 0.6;
-const ALL: [bool; GYROS] = [true; GYROS];
-const PAGE: &str = "book/src/theory/gyro_steering.md";
+const ALL: [bool; CMGS] = [true; CMGS];
+const PAGE: &str = "book/src/theory/cmg_steering.md";
 
 /// The pyramid of momentum `h0`: faces across x, y, -x, -y, gimbal axes tilted by the skew angle.
 fn pyramid(h0: f64) -> [ControlMomentGyro<f64>; 4] {
-    let gyro = |gimbal: Vec3<f64>, spin: Vec3<f64>| ControlMomentGyro {
+    let cmg = |gimbal: Vec3<f64>, spin: Vec3<f64>| ControlMomentGyro {
         gimbal_axis_B: gimbal,
         spin_axis_B: spin,
         momentum: h0,
@@ -26,27 +26,27 @@ fn pyramid(h0: f64) -> [ControlMomentGyro<f64>; 4] {
         ..Default::default()
     };
     [
-        gyro(vec3(S, 0.0, C), vec3(0.0, 1.0, 0.0)),
-        gyro(vec3(0.0, S, C), vec3(-1.0, 0.0, 0.0)),
-        gyro(vec3(-S, 0.0, C), vec3(0.0, -1.0, 0.0)),
-        gyro(vec3(0.0, -S, C), vec3(1.0, 0.0, 0.0)),
+        cmg(vec3(S, 0.0, C), vec3(0.0, 1.0, 0.0)),
+        cmg(vec3(0.0, S, C), vec3(-1.0, 0.0, 0.0)),
+        cmg(vec3(-S, 0.0, C), vec3(0.0, -1.0, 0.0)),
+        cmg(vec3(0.0, -S, C), vec3(1.0, 0.0, 0.0)),
     ]
 }
-fn angles(of: [f64; 4]) -> [f64; GYROS] {
+fn angles(of: [f64; 4]) -> [f64; CMGS] {
     [of[0], of[1], of[2], of[3], 0.0, 0.0, 0.0, 0.0]
 }
 
-fn momentum(gyros: &[ControlMomentGyro<f64>], angles: &[f64; GYROS]) -> Vec3<f64> {
-    let each = gyros.iter().zip(angles);
-    each.fold(Vec3::zero(), |h, (gyro, &angle)| h + gyro.spin_axis(angle) * gyro.momentum)
+fn momentum(cmgs: &[ControlMomentGyro<f64>], angles: &[f64; CMGS]) -> Vec3<f64> {
+    let each = cmgs.iter().zip(angles);
+    each.fold(Vec3::zero(), |h, (cmg, &angle)| h + cmg.spin_axis(angle) * cmg.momentum)
 }
 /// k0 0.01 and μ 10.
 fn damping() -> Damping<f64> {
     Damping { k0: 0.01, fading: 10.0 }
 }
 
-fn law(sharing: GyroSharing<f64>) -> GyroLaw<f64> {
-    GyroLaw { sharing, null_gain: 0.0 }
+fn law(sharing: CmgSharing<f64>) -> CmgLaw<f64> {
+    CmgLaw { sharing, null_gain: 0.0 }
 }
 
 /// Waves of 0.01 at a quarter of a hertz, a quarter of a turn apart.
@@ -56,8 +56,8 @@ fn waves() -> Waves<f64> {
 
 /// What a steady command does.
 struct Push {
-    angles: [f64; GYROS],
-    law: GyroLaw<f64>,
+    angles: [f64; CMGS],
+    law: CmgLaw<f64>,
     time: f64,
     /// h0/s.
     wanted: Vec3<f64>,
@@ -67,7 +67,7 @@ impl Push {
     const STEP: f64 = 0.01;
 
     /// 0.1 h0 a second along +x.
-    fn from(start: [f64; 4], sharing: GyroSharing<f64>) -> Self {
+    fn from(start: [f64; 4], sharing: CmgSharing<f64>) -> Self {
         Self { angles: angles(start), law: law(sharing), time: 0.0, wanted: vec3(0.1, 0.0, 0.0) }
     }
     /// Momentum along x (h0).
@@ -76,8 +76,8 @@ impl Push {
     }
     /// One step by the midpoint.
     fn step(&mut self) {
-        let rates = |angles: &[f64; GYROS], time: f64| {
-            gyro_rates(&pyramid(1.0), &ALL, &self.law, self.wanted, angles, time).values
+        let rates = |angles: &[f64; CMGS], time: f64| {
+            cmg_rates(&pyramid(1.0), &ALL, &self.law, self.wanted, angles, time).values
         };
         let first = rates(&self.angles, self.time);
         let middle = std::array::from_fn(|k| self.angles[k] + 0.5 * Self::STEP * first[k]);
@@ -98,24 +98,24 @@ impl Push {
 }
 
 /// Sines and cosines of four angles.
-fn sines(a: &[f64; GYROS]) -> ([f64; 4], [f64; 4]) {
+fn sines(a: &[f64; CMGS]) -> ([f64; 4], [f64; 4]) {
     (std::array::from_fn(|k| a[k].sin()), std::array::from_fn(|k| a[k].cos()))
 }
 
-/// Columns of A over h0 as the product's gyros give them.
-fn columns(a: &[f64; GYROS]) -> [Vec3<f64>; 4] {
-    let gyros = pyramid(1.0);
-    std::array::from_fn(|k| gyros[k].torque_axis(a[k]))
+/// Columns of A over h0 as the product's CMGs give them.
+fn columns(a: &[f64; CMGS]) -> [Vec3<f64>; 4] {
+    let cmgs = pyramid(1.0);
+    std::array::from_fn(|k| cmgs[k].torque_axis(a[k]))
 }
 
 /// The null vector of four columns: each element the determinant of the other three, in turn.
-fn null_vector(a: &[f64; GYROS]) -> [f64; 4] {
+fn null_vector(a: &[f64; CMGS]) -> [f64; 4] {
     let [p, q, r, s] = columns(a);
     let det = |a: Vec3<f64>, b: Vec3<f64>, c: Vec3<f64>| a.dot(b.cross(c));
     [det(q, r, s), -det(p, r, s), det(p, q, s), -det(p, q, r)]
 }
 
-fn any_angles() -> impl Strategy<Value = [f64; GYROS]> {
+fn any_angles() -> impl Strategy<Value = [f64; CMGS]> {
     prop::array::uniform8(-3.2..3.2)
 }
 
@@ -123,7 +123,7 @@ fn vector(size: f64) -> impl Strategy<Value = Vec3<f64>> {
     [-size..size, -size..size, -size..size].prop_map(Vec3::from_array)
 }
 
-/// One to eight gyros of different sizes in general position.
+/// One to eight CMGs of different sizes in general position.
 fn array() -> impl Strategy<Value = Vec<ControlMomentGyro<f64>>> {
     let long = |v: &Vec3<f64>| v.norm() > 0.2;
     let one =
@@ -138,26 +138,22 @@ fn array() -> impl Strategy<Value = Vec<ControlMomentGyro<f64>>> {
             ..Default::default()
         })
     });
-    prop::collection::vec(one, 1..=GYROS)
+    prop::collection::vec(one, 1..=CMGS)
 }
 
-fn every_sharing() -> [GyroSharing<f64>; 3] {
+fn every_sharing() -> [CmgSharing<f64>; 3] {
     [
-        GyroSharing::PseudoInverse,
-        GyroSharing::SingularityRobust(damping()),
-        GyroSharing::GeneralizedSingularityRobust(damping(), waves()),
+        CmgSharing::PseudoInverse,
+        CmgSharing::SingularityRobust(damping()),
+        CmgSharing::GeneralizedSingularityRobust(damping(), waves()),
     ]
 }
 
 /// Change of momentum that rates give.
-fn given(
-    gyros: &[ControlMomentGyro<f64>],
-    angles: &[f64; GYROS],
-    rates: &[f64; GYROS],
-) -> Vec3<f64> {
-    let each = gyros.iter().zip(angles).zip(rates);
-    each.fold(Vec3::zero(), |sum, ((gyro, &angle), &rate)| {
-        sum + gyro.torque_axis(angle) * (gyro.momentum * rate)
+fn given(cmgs: &[ControlMomentGyro<f64>], angles: &[f64; CMGS], rates: &[f64; CMGS]) -> Vec3<f64> {
+    let each = cmgs.iter().zip(angles).zip(rates);
+    each.fold(Vec3::zero(), |sum, ((cmg, &angle), &rate)| {
+        sum + cmg.torque_axis(angle) * (cmg.momentum * rate)
     })
 }
 
@@ -203,7 +199,7 @@ proptest! {
         prop_assert!(none.norm() < 3e-15, "{:e}", none.norm());
         let square: f64 = n.iter().map(|n| n * n).sum();
         for h0 in [1.0, 60.0] {
-            let off = gyro_singularity(&pyramid(h0), &ALL, &a) - square;
+            let off = cmg_singularity(&pyramid(h0), &ALL, &a) - square;
             prop_assert!(off.abs() < 1e-14, "{off:e}");
         }
     }
@@ -212,17 +208,17 @@ proptest! {
     /// torques of up to 800 N·m: measured 1.4e-14.
     #[test]
     fn what_is_given_and_what_is_missing_add_up_to_what_is_wanted(
-        gyros in array(), a in any_angles(), wanted in vector(20.0), time in 0.0..100.0,
+        cmgs in array(), a in any_angles(), wanted in vector(20.0), time in 0.0..100.0,
         usable in prop::array::uniform8(prop::bool::weighted(0.8)),
     ) {
         for sharing in every_sharing() {
             for null_gain in [0.0, 0.3] {
-                let law = GyroLaw { sharing, null_gain };
-                let told = gyro_rates(&gyros, &usable, &law, wanted, &a, time);
-                let sum = given(&gyros, &a, &told.values) + told.missing_B;
+                let law = CmgLaw { sharing, null_gain };
+                let told = cmg_rates(&cmgs, &usable, &law, wanted, &a, time);
+                let sum = given(&cmgs, &a, &told.values) + told.missing_B;
                 prop_assert!((sum - wanted).norm() < 1e-12, "{:e}", (sum - wanted).norm());
-                for k in 0..GYROS {
-                    let limit = gyros.get(k).filter(|_| usable[k]).map_or(0.0, |gyro| gyro.rate_limit);
+                for k in 0..CMGS {
+                    let limit = cmgs.get(k).filter(|_| usable[k]).map_or(0.0, |cmg| cmg.rate_limit);
                     prop_assert!(told.values[k].abs() <= limit);
                 }
             }
@@ -233,12 +229,12 @@ proptest! {
     /// wanted missing, 9.8e-16 rad turned.
     #[test]
     fn the_pseudo_inverse_gives_all_or_cuts_without_turning(
-        gyros in array(), a in any_angles(), wanted in vector(20.0),
+        cmgs in array(), a in any_angles(), wanted in vector(20.0),
     ) {
-        prop_assume!(gyro_singularity(&gyros, &ALL, &a) > 0.01);
-        let told = gyro_rates(&gyros, &ALL, &law(GyroSharing::PseudoInverse), wanted, &a, 0.0);
-        let sum = given(&gyros, &a, &told.values);
-        let cut = told.values.iter().zip(&gyros).any(|(rate, gyro)| rate.abs() > 0.999_999 * gyro.rate_limit);
+        prop_assume!(cmg_singularity(&cmgs, &ALL, &a) > 0.01);
+        let told = cmg_rates(&cmgs, &ALL, &law(CmgSharing::PseudoInverse), wanted, &a, 0.0);
+        let sum = given(&cmgs, &a, &told.values);
+        let cut = told.values.iter().zip(&cmgs).any(|(rate, cmg)| rate.abs() > 0.999_999 * cmg.rate_limit);
         prop_assert!(cut || told.missing_B.norm() < 1e-14 * wanted.norm());
         prop_assert!(sum.cross(wanted).norm() < 1e-14 * sum.norm() * wanted.norm());
     }
@@ -246,11 +242,11 @@ proptest! {
     /// Damping fades: far from singularities the robust laws give the same as the pseudo-inverse.
     #[test]
     fn far_from_singularities_the_laws_agree(a in any_angles(), wanted in vector(0.1)) {
-        let gyros = pyramid(1.0);
-        let measure = gyro_singularity(&gyros, &ALL, &a);
+        let cmgs = pyramid(1.0);
+        let measure = cmg_singularity(&cmgs, &ALL, &a);
         prop_assume!(measure > 0.8);
         let [exact, robust, waved] =
-            every_sharing().map(|s| gyro_rates(&gyros, &ALL, &law(s), wanted, &a, 3.0));
+            every_sharing().map(|s| cmg_rates(&cmgs, &ALL, &law(s), wanted, &a, 3.0));
         // What is missing is k (A Aᵀ + k)⁻¹ of what is wanted: measured up to 3.9 k.
         let k = 0.01 * (-10.0 * measure).exp();
         prop_assert!(exact.missing_B.norm() < 1e-15);
@@ -263,16 +259,16 @@ proptest! {
     /// The gradient less its torque: the momentum stays, and the measure rises as the gradient says.
     #[test]
     fn null_motion_gives_no_torque_and_leads_away_from_singularities(
-        gyros in array(), a in any_angles(),
+        cmgs in array(), a in any_angles(),
     ) {
-        prop_assume!(gyro_singularity(&gyros, &ALL, &a) > 0.01);
-        let law = GyroLaw { sharing: GyroSharing::PseudoInverse, null_gain: 0.05 };
-        let told = gyro_rates(&gyros, &ALL, &law, Vec3::zero(), &a, 0.0);
+        prop_assume!(cmg_singularity(&cmgs, &ALL, &a) > 0.01);
+        let law = CmgLaw { sharing: CmgSharing::PseudoInverse, null_gain: 0.05 };
+        let told = cmg_rates(&cmgs, &ALL, &law, Vec3::zero(), &a, 0.0);
         let size: f64 = told.values.iter().map(|rate| rate * rate).sum();
         prop_assert!(told.missing_B.norm() < 1e-12, "measured 3.1e-14: {:e}", told.missing_B.norm());
         let h = 1e-4;
         let moved = |by: f64| std::array::from_fn(|k| a[k] + by * told.values[k]);
-        let rise = gyro_singularity(&gyros, &ALL, &moved(h)) - gyro_singularity(&gyros, &ALL, &moved(-h));
+        let rise = cmg_singularity(&cmgs, &ALL, &moved(h)) - cmg_singularity(&cmgs, &ALL, &moved(-h));
         // Along its projection, the gradient's slope is the square of the projection over the gain;
         // more, where a rate limit has shortened it.
         let expected = size / 0.05;
@@ -282,14 +278,14 @@ proptest! {
 }
 
 /// Spin axes as near as can be to a direction: the outermost state, and what it holds along there.
-fn outermost(along: Vec3<f64>) -> ([f64; GYROS], f64) {
-    let gyros = pyramid(1.0);
-    let mut a = [0.0; GYROS];
+fn outermost(along: Vec3<f64>) -> ([f64; CMGS], f64) {
+    let cmgs = pyramid(1.0);
+    let mut a = [0.0; CMGS];
     for k in 0..4 {
-        let (s, g) = (gyros[k].spin_axis_B, gyros[k].gimbal_axis_B);
+        let (s, g) = (cmgs[k].spin_axis_B, cmgs[k].gimbal_axis_B);
         a[k] = g.cross(s).dot(along).atan2(s.dot(along));
     }
-    (a, momentum(&gyros, &a).dot(along))
+    (a, momentum(&cmgs, &a).dot(along))
 }
 
 /// 3.2 h0 along x, y and z; between 2.828 and 3.298 h0 elsewhere, on a grid of a degree. What a rotor
@@ -299,7 +295,7 @@ fn the_momentum_envelope_of_the_pyramid_has_the_closed_form() {
     for axis in [vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0)] {
         let (a, most) = outermost(axis);
         assert!((most - 3.2).abs() < 1e-15, "{most}");
-        assert!(gyro_singularity(&pyramid(1.0), &ALL, &a) < 1e-15);
+        assert!(cmg_singularity(&pyramid(1.0), &ALL, &a) < 1e-15);
     }
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
     for i in 0..=180 {
@@ -309,7 +305,7 @@ fn the_momentum_envelope_of_the_pyramid_has_the_closed_form() {
             let (_, holds) = outermost(along);
             let closed: f64 = pyramid(1.0)
                 .iter()
-                .map(|gyro| (1.0 - gyro.gimbal_axis_B.dot(along).powi(2)).max(0.0).sqrt())
+                .map(|cmg| (1.0 - cmg.gimbal_axis_B.dot(along).powi(2)).max(0.0).sqrt())
                 .sum();
             // A rotor whose gimbal axis lies along the direction: root of round-off.
             assert!((holds - closed).abs() < 5e-8, "{holds} {closed}");
@@ -326,7 +322,7 @@ fn the_momentum_envelope_of_the_pyramid_has_the_closed_form() {
 /// by turning the gimbals a little. Steps of 10 ms, a rate limit of 1 rad/s.
 #[test]
 fn pseudo_inverse_and_singularity_robust_law_stop_at_1_2_h0() {
-    for sharing in [GyroSharing::PseudoInverse, GyroSharing::SingularityRobust(damping())] {
+    for sharing in [CmgSharing::PseudoInverse, CmgSharing::SingularityRobust(damping())] {
         let mut push = Push::from([0.0; 4], sharing);
         assert_eq!(push.passes(1.2 + 1e-9, 40.0), None, "{sharing:?}");
         // The pseudo-inverse rattles about the singularity at the rate limit: 10 ms × 1 rad/s.
@@ -336,13 +332,13 @@ fn pseudo_inverse_and_singularity_robust_law_stop_at_1_2_h0() {
             assert!((push.angles[k] - there[k]).abs() < 0.01, "{:?}", push.angles);
         }
         let named = match sharing {
-            GyroSharing::PseudoInverse => "pseudo-inverse",
+            CmgSharing::PseudoInverse => "pseudo-inverse",
             _ => "singularity-robust",
         };
         let mut page = Page::open(PAGE);
         page.says(&format!("| {named} | 0, 0, 0, 0 | stops at {{}} `h_0`"), &[push.hx()]);
         page.holds();
-        let told = gyro_rates(&pyramid(1.0), &ALL, &law(sharing), vec3(0.1, 0.0, 0.0), &there, 0.0);
+        let told = cmg_rates(&pyramid(1.0), &ALL, &law(sharing), vec3(0.1, 0.0, 0.0), &there, 0.0);
         assert!((told.missing_B - vec3(0.1, 0.0, 0.0)).norm() < 1e-15, "all of it is missing");
     }
 }
@@ -351,7 +347,7 @@ fn pseudo_inverse_and_singularity_robust_law_stop_at_1_2_h0() {
 fn the_generalized_law_passes_the_singularity() {
     let passes = |phases: [f64; 3]| {
         let waves = Waves { phases, ..waves() };
-        let sharing = GyroSharing::GeneralizedSingularityRobust(damping(), waves);
+        let sharing = CmgSharing::GeneralizedSingularityRobust(damping(), waves);
         Push::from([0.0; 4], sharing).passes(1.5, 100.0).unwrap()
     };
     // Beyond 15 s all is delay at the singularity. It depends on the phases of the waves.
@@ -368,10 +364,10 @@ fn the_generalized_law_passes_the_singularity() {
 #[test]
 fn started_at_the_singularity_only_the_generalized_law_leaves_it() {
     let there = [-FRAC_PI_2, 0.0, FRAC_PI_2, 0.0];
-    let mut robust = Push::from(there, GyroSharing::SingularityRobust(damping()));
+    let mut robust = Push::from(there, CmgSharing::SingularityRobust(damping()));
     assert_eq!(robust.passes(1.2 + 1e-9, 100.0), None);
     assert!((robust.hx() - 1.2).abs() < 1e-15, "{}", robust.hx());
-    let sharing = GyroSharing::GeneralizedSingularityRobust(damping(), waves());
+    let sharing = CmgSharing::GeneralizedSingularityRobust(damping(), waves());
     let leaves = Push::from(there, sharing).passes(1.25, 100.0).unwrap();
     let mut page = Page::open(PAGE);
     let row = "| generalized | (-90°, 0, 90°, 0) | passes 1.25 `h_0` after {} s |";
@@ -383,7 +379,7 @@ fn started_at_the_singularity_only_the_generalized_law_leaves_it() {
 #[test]
 fn from_preferred_angles_the_pseudo_inverse_reaches_the_envelope() {
     let q = FRAC_PI_4;
-    let mut push = Push::from([q, -q, q, -q], GyroSharing::PseudoInverse);
+    let mut push = Push::from([q, -q, q, -q], CmgSharing::PseudoInverse);
     let on_time = push.passes(2.88, 40.0).unwrap();
     assert!((on_time - 28.8).abs() < 0.015, "0.1 h0 a second, in steps of 10 ms: {on_time}");
     while push.time < 40.0 {
@@ -394,12 +390,12 @@ fn from_preferred_angles_the_pseudo_inverse_reaches_the_envelope() {
 
 /// Least singularity measure while the pseudo-inverse pushes from no momentum to 2.88 h0, 0.9 of the
 /// envelope; zero if it gets stuck.
-fn clearance(start: [f64; GYROS], along: Vec3<f64>) -> f64 {
-    let law = law(GyroSharing::PseudoInverse);
+fn clearance(start: [f64; CMGS], along: Vec3<f64>) -> f64 {
+    let law = law(CmgSharing::PseudoInverse);
     let mut push = Push { angles: start, law, time: 0.0, wanted: along * 0.1 };
     let mut least = f64::INFINITY;
     while momentum(&pyramid(1.0), &push.angles).dot(along) < 2.88 {
-        least = least.min(gyro_singularity(&pyramid(1.0), &ALL, &push.angles));
+        least = least.min(cmg_singularity(&pyramid(1.0), &ALL, &push.angles));
         push.step();
         if push.time > 40.0 {
             return 0.0;
@@ -411,7 +407,7 @@ fn clearance(start: [f64; GYROS], along: Vec3<f64>) -> f64 {
 /// The classic angles for +x come as near as 0.524 on their way.
 #[test]
 fn proposed_angles_have_no_momentum_and_keep_clear_of_singularities() {
-    let (gyros, q) = (pyramid(1.0), FRAC_PI_4);
+    let (cmgs, q) = (pyramid(1.0), FRAC_PI_4);
     let x = vec3(1.0, 0.0, 0.0);
     let classic = clearance(angles([q, -q, q, -q]), x);
     assert!((classic - 0.5243).abs() < 1e-3, "{classic}");
@@ -419,7 +415,7 @@ fn proposed_angles_have_no_momentum_and_keep_clear_of_singularities() {
     let row = "| pseudo-inverse | (45°, -45°, 45°, -45°) | 3.2 `h_0`; least measure on the way to 2.88 \
                `h_0`: {} |";
     page.says(row, &[classic]);
-    let best = preferred_angles(&gyros, x).unwrap();
+    let best = preferred_angles(&cmgs, x).unwrap();
     let [q1, q2, q3, q4, ..] = best.map(f64::to_degrees);
     let row = "| pseudo-inverse | proposed: ({}°, {}°, {}°, {}°) | least measure on the way to 2.88 \
                `h_0`: {} |";
@@ -429,9 +425,9 @@ fn proposed_angles_have_no_momentum_and_keep_clear_of_singularities() {
     for (along, expected) in
         [(x, 1.2102), (-x, 1.2102), (vec3(0.0, 0.0, 1.0), 1.3271), (oblique, 1.4592)]
     {
-        let start = preferred_angles(&gyros, along * 7.0).unwrap();
+        let start = preferred_angles(&cmgs, along * 7.0).unwrap();
         // Newton's method to the end: measured 1.7e-16.
-        assert!(momentum(&gyros, &start).norm() < 1e-14, "{start:?}");
+        assert!(momentum(&cmgs, &start).norm() < 1e-14, "{start:?}");
         let clear = clearance(start, along);
         assert!((clear - expected).abs() < 1e-3, "{along:?}: {clear}");
     }
@@ -441,8 +437,8 @@ fn proposed_angles_have_no_momentum_and_keep_clear_of_singularities() {
 /// motion with steps of 0.1 rad, no other start keeps clearer.
 #[test]
 fn no_null_motion_improves_on_the_proposed_angles() {
-    let (gyros, along) = (pyramid(1.0), vec3(1.0, 0.0, 0.0));
-    let proposed = preferred_angles(&gyros, along).unwrap();
+    let (cmgs, along) = (pyramid(1.0), vec3(1.0, 0.0, 0.0));
+    let proposed = preferred_angles(&cmgs, along).unwrap();
     let best = clearance(proposed, along);
     let (mut a, mut worse, mut farthest) = (proposed, 0, 0.0_f64);
     for _ in 0..70 {
@@ -453,11 +449,11 @@ fn no_null_motion_improves_on_the_proposed_angles() {
         }
         // Back to no momentum: Newton's method with the law itself.
         for _ in 0..3 {
-            let back = -momentum(&gyros, &a);
-            let turns = gyro_rates(&gyros, &ALL, &law(GyroSharing::PseudoInverse), back, &a, 0.0);
+            let back = -momentum(&cmgs, &a);
+            let turns = cmg_rates(&cmgs, &ALL, &law(CmgSharing::PseudoInverse), back, &a, 0.0);
             a = std::array::from_fn(|k| a[k] + turns.values[k]);
         }
-        assert!(momentum(&gyros, &a).norm() < 1e-9);
+        assert!(momentum(&cmgs, &a).norm() < 1e-9);
         let clear = clearance(a, along);
         assert!(clear < best + 1e-4, "{clear} at {a:?} is above {best} at {proposed:?}");
         worse += u32::from(clear < 0.9 * best);
@@ -466,7 +462,7 @@ fn no_null_motion_improves_on_the_proposed_angles() {
     assert!(worse > 20 && farthest > 1.0, "the walk goes somewhere: {worse}, {farthest} rad");
 }
 
-/// Unequal gyros; a pair that cancels along one line only; none; a direction that is none.
+/// Unequal CMGs; a pair that cancels along one line only; none; a direction that is none.
 #[test]
 fn preferred_angles_exist_where_the_rotors_can_cancel() {
     let x = vec3(1.0, 0.0, 0.0);
@@ -490,8 +486,7 @@ fn the_others_steer_when_a_gimbal_is_stuck() {
     usable[1] = false;
     let a = angles([0.3, 0.7, -0.2, 0.5]);
     let wanted = vec3(0.02, -0.05, 0.04);
-    let told =
-        gyro_rates(&pyramid(1.0), &usable, &law(GyroSharing::PseudoInverse), wanted, &a, 0.0);
+    let told = cmg_rates(&pyramid(1.0), &usable, &law(CmgSharing::PseudoInverse), wanted, &a, 0.0);
     assert_eq!(told.values[1], 0.0);
     assert!(told.missing_B.norm() < 1e-15, "{told:?}");
 }
@@ -500,17 +495,17 @@ fn the_others_steer_when_a_gimbal_is_stuck() {
 /// same time.
 #[test]
 fn single_precision_passes_the_singularity_too() {
-    let gyros = pyramid(1.0).map(|gyro| gyro.cast::<f32>());
+    let cmgs = pyramid(1.0).map(|cmg| cmg.cast::<f32>());
     let phases = waves().phases.map(f32::from_f64);
     let waves = Waves { height: 0.01, frequency: f32::from_f64(FRAC_PI_2), phases };
     let damping = Damping { k0: 0.01, fading: 10.0 };
-    let sharing = GyroSharing::GeneralizedSingularityRobust(damping, waves);
-    let law = GyroLaw { sharing, null_gain: 0.0_f32 };
-    let (mut a, mut steps) = ([0.0_f32; GYROS], 0_u16);
-    let hx = |a: &[f32; GYROS]| momentum(&pyramid(1.0), &a.map(f64::from)).x;
+    let sharing = CmgSharing::GeneralizedSingularityRobust(damping, waves);
+    let law = CmgLaw { sharing, null_gain: 0.0_f32 };
+    let (mut a, mut steps) = ([0.0_f32; CMGS], 0_u16);
+    let hx = |a: &[f32; CMGS]| momentum(&pyramid(1.0), &a.map(f64::from)).x;
     while hx(&a) < 1.5 && steps < 6000 {
         let time = 0.01 * f32::from(steps);
-        let told = gyro_rates(&gyros, &ALL, &law, vec3(0.1, 0.0, 0.0), &a, time);
+        let told = cmg_rates(&cmgs, &ALL, &law, vec3(0.1, 0.0, 0.0), &a, time);
         a = std::array::from_fn(|k| a[k] + 0.01 * told.values[k]);
         steps += 1;
     }
@@ -518,34 +513,34 @@ fn single_precision_passes_the_singularity_too() {
     assert!((passes - 33.68).abs() < 0.2, "measured 33.80 s: {passes}");
 }
 
-/// Numbers that are none are refused; without gyros all is missing.
+/// Numbers that are none are refused; without CMGs all is missing.
 #[test]
 fn what_is_not_a_number_turns_no_gimbal() {
-    let (gyros, a) = (pyramid(1.0), angles([0.1, 0.2, 0.3, 0.4]));
+    let (cmgs, a) = (pyramid(1.0), angles([0.1, 0.2, 0.3, 0.4]));
     let wanted = vec3(0.02, -0.05, 0.04);
     for sharing in every_sharing() {
-        let law = GyroLaw { sharing, null_gain: 0.1 };
-        let told = gyro_rates(&gyros, &ALL, &law, vec3(f64::NAN, 0.0, 0.0), &a, 0.0);
-        assert_eq!(told.values, [0.0; GYROS]);
+        let law = CmgLaw { sharing, null_gain: 0.1 };
+        let told = cmg_rates(&cmgs, &ALL, &law, vec3(f64::NAN, 0.0, 0.0), &a, 0.0);
+        assert_eq!(told.values, [0.0; CMGS]);
         let mut bad = a;
         bad[3] = f64::NAN;
-        let told = gyro_rates(&gyros, &ALL, &law, wanted, &bad, 0.0);
+        let told = cmg_rates(&cmgs, &ALL, &law, wanted, &bad, 0.0);
         assert!(told.values[3] == 0.0 && told.missing_B.norm() < 1e-3, "{told:?}");
-        let told = gyro_rates(&[], &ALL, &law, wanted, &a, 0.0);
-        assert_eq!((told.values, told.missing_B), ([0.0; GYROS], wanted));
+        let told = cmg_rates(&[], &ALL, &law, wanted, &a, 0.0);
+        assert_eq!((told.values, told.missing_B), ([0.0; CMGS], wanted));
     }
 }
 
 /// Numbers at either end of the range: rates within limits, or none.
 #[test]
 fn extreme_torques_and_angles_stay_within_limits() {
-    let gyros = pyramid(60.0);
+    let cmgs = pyramid(60.0);
     for sharing in every_sharing() {
         for size in [f64::MIN_POSITIVE, 1e-200, 1e200, f64::MAX] {
             for angle in [0.0, size, -size] {
-                let law = GyroLaw { sharing, null_gain: 1.0 };
+                let law = CmgLaw { sharing, null_gain: 1.0 };
                 let wanted = vec3(size, -size, 0.3 * size);
-                let told = gyro_rates(&gyros, &ALL, &law, wanted, &[angle; GYROS], size);
+                let told = cmg_rates(&cmgs, &ALL, &law, wanted, &[angle; CMGS], size);
                 let within = |rate: &f64| rate.abs() <= 1.0;
                 assert!(told.values.iter().all(within), "{size:e} {angle:e}: {told:?}");
             }
@@ -559,8 +554,8 @@ fn extreme_torques_and_angles_stay_within_limits() {
 fn the_clock_of_the_waves_never_stalls() {
     assert_eq!(262_144.0_f32 + 0.01, 262_144.0);
     let waves = Waves { height: 0.01_f32, frequency: 0.5 * std::f32::consts::PI, phases: [0.0; 3] };
-    let sharing = GyroSharing::GeneralizedSingularityRobust(Damping::default(), waves);
-    let law = GyroLaw { sharing, null_gain: 0.0 };
+    let sharing = CmgSharing::GeneralizedSingularityRobust(Damping::default(), waves);
+    let law = CmgLaw { sharing, null_gain: 0.0 };
     let (mut time, mut count, mut most) = (0.0_f32, 0, 0.0_f32);
     for _ in 0..1_000_000 {
         let next = law.within_a_wave(time + 0.01);
@@ -571,7 +566,7 @@ fn the_clock_of_the_waves_never_stalls() {
     assert!((count - 2500).abs() <= 1, "{count}");
     assert!(most <= 2.0 + 1e-6, "half a wave: {most}");
     // A law without waves has no clock, and what is no number does not stay.
-    let still = GyroLaw { sharing: GyroSharing::PseudoInverse, ..law };
+    let still = CmgLaw { sharing: CmgSharing::PseudoInverse, ..law };
     assert_eq!([still.within_a_wave(7.0), law.within_a_wave(f32::NAN)], [0.0, 0.0]);
 }
 
@@ -579,9 +574,9 @@ fn the_clock_of_the_waves_never_stalls() {
 /// Three have a measure of their own, the square of what the fourth leaves of the null vector.
 #[test]
 fn a_gimbal_that_is_not_used_does_not_count_in_the_singularity_measure() {
-    let (gyros, a) = (pyramid(1.0), angles([0.3, -0.2, 0.5, 0.1]));
+    let (cmgs, a) = (pyramid(1.0), angles([0.3, -0.2, 0.5, 0.1]));
     let usable = |count: usize| std::array::from_fn(|k| k < count);
-    let measure = |count| gyro_singularity(&gyros, &usable(count), &a);
+    let measure = |count| cmg_singularity(&cmgs, &usable(count), &a);
     let n = null_vector(&a);
     assert!((measure(3) - n[3] * n[3]).abs() < 1e-15, "{:e}", measure(3) - n[3] * n[3]);
     assert!(measure(2) < 1e-15 && measure(4) > measure(3) && measure(3) > 0.01, "{}", measure(2));

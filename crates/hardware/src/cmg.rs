@@ -3,7 +3,7 @@
 use wrasse_spatial::{Real, Scalar, Vec3};
 
 /// Most control moment gyros of one vehicle.
-pub const GYROS: usize = 8;
+pub const CMGS: usize = 8;
 
 /// A single-gimbal control moment gyro. Its matter is part of the base's; the rotor keeps its speed
 /// against the gimbal, the gimbal motor turns it about the gimbal axis.
@@ -62,7 +62,7 @@ impl<T: Scalar> ControlMomentGyro<T> {
 }
 
 impl ControlMomentGyro<f64> {
-    /// The same gyro over another scalar.
+    /// The same CMG over another scalar.
     pub fn cast<T: Real>(&self) -> ControlMomentGyro<T> {
         let c = T::from_f64;
         ControlMomentGyro {
@@ -83,7 +83,7 @@ mod tests {
     use super::*;
     use wrasse_spatial::vec3;
 
-    fn gyro() -> ControlMomentGyro<f64> {
+    fn cmg() -> ControlMomentGyro<f64> {
         ControlMomentGyro {
             gimbal_axis_B: vec3(0.8, 0.0, 0.6),
             spin_axis_B: vec3(0.0, 1.0, 0.0),
@@ -92,19 +92,19 @@ mod tests {
         }
     }
 
-    /// Gyro 1 of the pyramid with sin β = 0.8: spin axis (-0.6 sin δ, cos δ, 0.8 sin δ).
+    /// CMG 1 of the pyramid with sin β = 0.8: spin axis (-0.6 sin δ, cos δ, 0.8 sin δ).
     #[test]
     fn the_spin_axis_turns_about_the_gimbal_axis() {
         let (s, c) = Real::sin_cos(0.7_f64);
-        let off = gyro().spin_axis(0.7) - vec3(-0.6 * s, c, 0.8 * s);
+        let off = cmg().spin_axis(0.7) - vec3(-0.6 * s, c, 0.8 * s);
         assert!(off.norm() < 1e-15);
     }
 
     #[test]
     fn the_torque_axis_is_the_derivative_of_the_spin_axis() {
         let (at, h) = (0.7, 1e-5);
-        let slope = (gyro().spin_axis(at + h) - gyro().spin_axis(at - h)) * (0.5 / h);
+        let slope = (cmg().spin_axis(at + h) - cmg().spin_axis(at - h)) * (0.5 / h);
         // Rounding 1e-16/1e-5 and the cube of the step.
-        assert!((slope - gyro().torque_axis(at)).norm() < 1e-10);
+        assert!((slope - cmg().torque_axis(at)).norm() < 1e-10);
     }
 }

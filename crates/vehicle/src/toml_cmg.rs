@@ -1,8 +1,8 @@
 //! Control moment gyros of a file, one by one and in arrays.
 
-use crate::equipment_format::{GyroArrangementFile, GyroArrayFile, GyroFile, GyroNumbers};
+use crate::cmg_array::{BOX_ANGLES_DEG, Mounting, four_sides, pyramid, roof, roof_angles_deg};
+use crate::equipment_format::{CmgArrangementFile, CmgArrayFile, CmgFile, CmgNumbers};
 use crate::figures::figures;
-use crate::gyro_array::{BOX_ANGLES_DEG, Mounting, four_sides, pyramid, roof, roof_angles_deg};
 use crate::hardware_catalogue::ModelsUsed;
 use crate::mounted_unit::{Mounted, direction};
 use crate::toml_reading::{Reading, under};
@@ -15,14 +15,14 @@ use wrasse_spatial::{Scalar, Vec3};
 /// How far spin and gimbal axis may be from a right angle (–, cosine): six decimals are enough.
 const ACROSS: f64 = 1e-5;
 
-/// A gyro; `None` after a complaint if it is not one.
-pub(crate) fn gyro(
+/// A CMG; `None` after a complaint if it is not one.
+pub(crate) fn cmg(
     reading: &mut Reading<'_>,
     models: &mut ModelsUsed,
     path: &[Step<'_>],
-    file: &GyroFile,
+    file: &CmgFile,
 ) -> Option<Mounted<ControlMomentGyro<f64>>> {
-    let of = format!("gyro '{}'", file.name);
+    let of = format!("CMG '{}'", file.name);
     let gimbal_axis = direction(reading, path, &of, "gimbal_axis", file.gimbal_axis);
     let spin_axis = direction(reading, path, &of, "spin_axis", file.spin_axis);
     let mounting = gimbal_axis.zip(spin_axis).and_then(|axes| across(reading, path, &of, axes));
@@ -31,7 +31,7 @@ pub(crate) fn gyro(
     Some(Mounted {
         name: file.name.clone(),
         at: reading.below(path, "name"),
-        label: file.model.clone().unwrap_or("gyro".into()),
+        label: file.model.clone().unwrap_or("CMG".into()),
         unit: mounted(rotor?, mounting?),
         start: file.gimbal_angle_deg.unwrap_or(0.0).to_radians(),
         mass: numbers.mass_kg,
@@ -39,14 +39,14 @@ pub(crate) fn gyro(
     })
 }
 
-/// The gyros of an array; none after a complaint if it is not one.
-pub(crate) fn gyro_array(
+/// The CMGs of an array; none after a complaint if it is not one.
+pub(crate) fn cmg_array(
     reading: &mut Reading<'_>,
     models: &mut ModelsUsed,
     path: &[Step<'_>],
-    file: &GyroArrayFile,
+    file: &CmgArrayFile,
 ) -> Option<Vec<Mounted<ControlMomentGyro<f64>>>> {
-    let of = format!("gyro array '{}'", file.name);
+    let of = format!("CMG array '{}'", file.name);
     let R_BA = reading.pose(path, [0.0; 3], file.orientation.as_ref()).rotation;
     let mountings = mountings(reading, path, &of, file);
     let angles = mountings.as_ref().map(|m| start_angles(reading, path, &of, file, m.len()));
@@ -57,7 +57,7 @@ pub(crate) fn gyro_array(
     let unit = |(k, ((gimbal, spin), angle)): (usize, (Mounting, f64))| Mounted {
         name: format!("{}-{}", file.name, k + 1),
         at: at.clone(),
-        label: file.model.clone().unwrap_or("gyro".into()),
+        label: file.model.clone().unwrap_or("CMG".into()),
         unit: mounted(rotor, (R_BA * gimbal, R_BA * spin)),
         start: angle.to_radians(),
         mass: numbers.mass_kg,
@@ -66,7 +66,7 @@ pub(crate) fn gyro_array(
     Some(each.map(unit).collect())
 }
 
-/// A gyro without mounting, on its mounting.
+/// A CMG without mounting, on its mounting.
 fn mounted(rotor: ControlMomentGyro<f64>, (gimbal, spin): Mounting) -> ControlMomentGyro<f64> {
     ControlMomentGyro { gimbal_axis_B: gimbal, spin_axis_B: spin, ..rotor }
 }
@@ -99,12 +99,12 @@ fn across(
     None
 }
 
-/// What a gyro can do, its mounting left open; complains of what is missing.
+/// What a CMG can do, its mounting left open; complains of what is missing.
 fn rotor(
     reading: &mut Reading<'_>,
     path: &[Step<'_>],
     of: &str,
-    numbers: &GyroNumbers,
+    numbers: &CmgNumbers,
 ) -> Option<ControlMomentGyro<f64>> {
     let by_torque = numbers.torque_limit_nm.zip(numbers.momentum_nms).map(|(t, h)| t / h);
     let by_rate = numbers.gimbal_rate_limit_deg_s.map(f64::to_radians);
@@ -150,17 +150,17 @@ fn mountings(
     reading: &mut Reading<'_>,
     path: &[Step<'_>],
     of: &str,
-    file: &GyroArrayFile,
+    file: &CmgArrayFile,
 ) -> Option<Vec<Mounting>> {
     let arrangement = file.arrangement;
     let (has_skew, has_count) = match arrangement {
-        GyroArrangementFile::Pyramid => (true, false),
-        GyroArrangementFile::Roof => (true, true),
-        GyroArrangementFile::Box => (false, false),
+        CmgArrangementFile::Pyramid => (true, false),
+        CmgArrangementFile::Roof => (true, true),
+        CmgArrangementFile::Box => (false, false),
     };
     let keys = [
         ("skew_deg", file.skew_deg.is_some(), has_skew, "the angle between gimbal axes and z"),
-        ("count", file.count.is_some(), has_count, "the number of gyros, in two equal rows"),
+        ("count", file.count.is_some(), has_count, "the number of CMGs, in two equal rows"),
     ];
     let mut sound = true;
     for (key, there, due, what) in keys {
@@ -183,36 +183,36 @@ fn mountings(
         return None;
     }
     if let Some(found) = file.count.filter(|count| has_count && count % 2 != 0) {
-        let message = format!("{of} has {found} gyros, which are not two equal rows");
+        let message = format!("{of} has {found} CMGs, which are not two equal rows");
         reading.error(&under(path, "count"), message, "an odd number", "4, 6 or 8");
         return None;
     }
     match arrangement {
         _ if !sound => None,
-        GyroArrangementFile::Pyramid => Some(pyramid(skew?)),
-        GyroArrangementFile::Roof => Some(roof(skew?, file.count?)),
-        GyroArrangementFile::Box => Some(four_sides()),
+        CmgArrangementFile::Pyramid => Some(pyramid(skew?)),
+        CmgArrangementFile::Roof => Some(roof(skew?, file.count?)),
+        CmgArrangementFile::Box => Some(four_sides()),
     }
 }
 
-/// Gimbal angles at the start (deg), one for each gyro.
+/// Gimbal angles at the start (deg), one for each CMG.
 fn start_angles(
     reading: &mut Reading<'_>,
     path: &[Step<'_>],
     of: &str,
-    file: &GyroArrayFile,
+    file: &CmgArrayFile,
     count: usize,
 ) -> Vec<f64> {
     let usual = match file.arrangement {
-        GyroArrangementFile::Pyramid => vec![0.0; count],
-        GyroArrangementFile::Roof => roof_angles_deg(count),
-        GyroArrangementFile::Box => BOX_ANGLES_DEG.to_vec(),
+        CmgArrangementFile::Pyramid => vec![0.0; count],
+        CmgArrangementFile::Roof => roof_angles_deg(count),
+        CmgArrangementFile::Box => BOX_ANGLES_DEG.to_vec(),
     };
     match &file.gimbal_angles_deg {
         Some(given) if given.len() == count => given.clone(),
         Some(given) => {
-            let message = format!("{of} has {count} gyros and {} gimbal angles", given.len());
-            let help = "one angle for each gyro, in order";
+            let message = format!("{of} has {count} CMGs and {} gimbal angles", given.len());
+            let help = "one angle for each CMG, in order";
             reading.error(&under(path, "gimbal_angles_deg"), message, "these angles", help);
             usual
         }

@@ -4,9 +4,9 @@
 
 mod equipped;
 
-use equipped::{block, gyro, turning_block};
+use equipped::{block, cmg, turning_block};
 use wrasse_dynamics::{BodyId, Joint, JointKind, MassProperties, Robot, State};
-use wrasse_hardware::{ActuatorCommand, ControlMomentGyro, GYROS, List, SetPoint, SetPointMotion};
+use wrasse_hardware::{ActuatorCommand, CMGS, ControlMomentGyro, List, SetPoint, SetPointMotion};
 use wrasse_spatial::{Mat3, Pose, SpatialVelocity, Sym3, Vec3, vec3};
 use wrasse_world::{
     BaseAttitude, Drive, Equipment, Failure, Saturation, Stepper, World, WorldSetup,
@@ -20,15 +20,15 @@ fn told(rate: &[f64]) -> ActuatorCommand<f64> {
     command
 }
 
-fn gyros(list: &[ControlMomentGyro<f64>]) -> Equipment {
+fn cmgs(list: &[ControlMomentGyro<f64>]) -> Equipment {
     let mut equipment = Equipment::default();
-    equipment.actuators.gyros = List::new(list);
+    equipment.actuators.cmgs = List::new(list);
     equipment
 }
 
 /// Gimbal about z, spin along x at zero angle.
 fn upright() -> ControlMomentGyro<f64> {
-    gyro(vec3(0.0, 0.0, 1.0), vec3(1.0, 0.0, 0.0))
+    cmg(vec3(0.0, 0.0, 1.0), vec3(1.0, 0.0, 0.0))
 }
 
 fn run(world: &mut World<1>, periods: usize, rate: &[f64]) -> Vec<Saturation> {
@@ -46,7 +46,7 @@ fn run(world: &mut World<1>, periods: usize, rate: &[f64]) -> Vec<Saturation> {
 fn the_gimbal_motor_carries_the_rotor_along_with_the_base() {
     let robot = block(1e9, Sym3::diagonal(1e9, 1e9, 1e9));
     let big = ControlMomentGyro { momentum: 60.0, ..upright() };
-    let mut world = turning_block(&robot, vec3(0.0, 2e-3, 0.0), &gyros(&[big]), 1e-2);
+    let mut world = turning_block(&robot, vec3(0.0, 2e-3, 0.0), &cmgs(&[big]), 1e-2);
     run(&mut world, 10, &[0.0]);
     let torque = world.gimbal_motor_torque()[0];
     assert!((torque + 0.12).abs() < 1e-11, "{torque}");
@@ -57,7 +57,7 @@ fn the_gimbal_motor_carries_the_rotor_along_with_the_base() {
 fn a_gimbal_motor_that_is_too_weak_gives_way_and_says_so() {
     let robot = block(1e9, Sym3::diagonal(1e9, 1e9, 1e9));
     let weak = ControlMomentGyro { momentum: 60.0, motor_limit: 0.1, ..upright() };
-    let mut world = turning_block(&robot, vec3(0.0, 2e-3, 0.0), &gyros(&[weak]), 1e-3);
+    let mut world = turning_block(&robot, vec3(0.0, 2e-3, 0.0), &cmgs(&[weak]), 1e-3);
     assert_eq!(run(&mut world, 1, &[0.0]), [Saturation::GimbalMotor(0)]);
     let (found, expected) = (world.actuator_readings().gimbal_rate[0], 0.02 / 0.02 * PERIOD);
     let off = (found / expected - 1.0).abs();
@@ -70,7 +70,7 @@ fn a_gimbal_motor_that_is_too_weak_gives_way_and_says_so() {
 #[test]
 fn a_gimbal_gathers_speed_by_its_servo_within_its_limits() {
     let robot = block(1e9, Sym3::diagonal(1e9, 1e9, 1e9));
-    let mut world = turning_block(&robot, Vec3::zero(), &gyros(&[upright()]), 1e-3);
+    let mut world = turning_block(&robot, Vec3::zero(), &cmgs(&[upright()]), 1e-3);
     assert_eq!(run(&mut world, 10, &[0.2]), []);
     // First-order servo of 20 rad/s: far below 10 rad/s². Measured off, in steps of 1 ms: 4e-10.
     let found = world.actuator_readings();
@@ -79,7 +79,7 @@ fn a_gimbal_gathers_speed_by_its_servo_within_its_limits() {
     let off_angle = (found.gimbal_angle[0] / (0.2 * (0.1 - lag)) - 1.0).abs();
     assert!(off_rate < 1e-8 && off_angle < 1e-8, "{off_rate:e} {off_angle:e}");
 
-    let mut world = turning_block(&robot, Vec3::zero(), &gyros(&[upright()]), 1e-3);
+    let mut world = turning_block(&robot, Vec3::zero(), &cmgs(&[upright()]), 1e-3);
     assert_eq!(run(&mut world, 1, &[-7.0]), [Saturation::GimbalRate(0)]);
     // 20 rad/s times 1 rad/s is more than 10 rad/s².
     let off = (world.actuator_readings().gimbal_rate[0] / (-10.0 * PERIOD) - 1.0).abs();
@@ -93,14 +93,14 @@ fn a_gimbal_gathers_speed_by_its_servo_within_its_limits() {
 #[test]
 fn a_gimbal_that_turns_hands_the_rotors_momentum_to_the_base() {
     let robot = block(50.0, Sym3::diagonal(40.0, 50.0, 60.0));
-    let mut world = turning_block(&robot, Vec3::zero(), &gyros(&[upright()]), 1e-3);
+    let mut world = turning_block(&robot, Vec3::zero(), &cmgs(&[upright()]), 1e-3);
     run(&mut world, 20, &[0.3]);
     let (readings, state) = (world.actuator_readings(), world.state());
     let (sin, cos) = f64::sin_cos(readings.gimbal_angle[0]);
-    let in_gyro = vec3(3.0 * cos, 3.0 * sin, 0.02 * readings.gimbal_rate[0]);
+    let in_cmg = vec3(3.0 * cos, 3.0 * sin, 0.02 * readings.gimbal_rate[0]);
     let w = state.V_NB_B.angular;
     let of_base = vec3(40.0 * w.x, 50.0 * w.y, 60.0 * w.z);
-    let off = (state.X_NB.rotation * (in_gyro + of_base) - vec3(3.0, 0.0, 0.0)).norm();
+    let off = (state.X_NB.rotation * (in_cmg + of_base) - vec3(3.0, 0.0, 0.0)).norm();
     assert!(off < 1e-13, "{off:e}");
     assert!(of_base.y < -0.1);
 }
@@ -110,7 +110,7 @@ fn a_gimbal_that_turns_hands_the_rotors_momentum_to_the_base() {
 fn a_stuck_gimbal_stands_still_at_once_and_its_momentum_is_the_bases() {
     let robot = block(50.0, Sym3::diagonal(4.0, 5.0, 6.0));
     let heavy = ControlMomentGyro { gimbal_inertia: 0.5, ..upright() };
-    let mut world = turning_block(&robot, Vec3::zero(), &gyros(&[heavy]), 1e-3);
+    let mut world = turning_block(&robot, Vec3::zero(), &cmgs(&[heavy]), 1e-3);
     let mut ledger = world.open_ledger();
     run(&mut world, 20, &[0.5]);
     let (rate, before) = (world.actuator_readings().gimbal_rate[0], world.state().V_NB_B.angular);
@@ -121,13 +121,13 @@ fn a_stuck_gimbal_stands_still_at_once_and_its_momentum_is_the_bases() {
     assert_eq!(run(&mut world, 20, &[0.5]), []);
     assert_eq!(world.actuator_readings().gimbal_rate[0], 0.0);
     assert_eq!(world.gimbal_motor_torque()[0], 0.0);
-    world.fail(Failure::Gimbal(GYROS));
+    world.fail(Failure::Gimbal(CMGS));
     world.update_ledger(&mut ledger);
     let [angular, _, energy] = ledger.rests();
     assert!(angular < 1e-13 && energy < 1e-10, "{angular:e} {energy:e}");
 }
 
-/// Two gyros of 60 N·m·s on an arm's base, as they are built: each rotor (0.1 kg·m² about its axis)
+/// Two CMGs of 60 N·m·s on an arm's base, as they are built: each rotor (0.1 kg·m² about its axis)
 /// in a gimbal.
 const MOMENTUM: f64 = 60.0;
 const ROTOR: f64 = 0.1;
@@ -192,7 +192,7 @@ fn as_links(odd: f64) -> World<4> {
     flying(&robot, [0.0, MOMENTUM / ROTOR, 0.0, MOMENTUM / ROTOR], &Equipment::default())
 }
 
-/// The gyros as equipment; their matter is the bus's.
+/// The CMGs as equipment; their matter is the bus's.
 fn as_equipment(odd: f64) -> World<1> {
     let mut bus = bus();
     let mut list = vec![];
@@ -205,11 +205,11 @@ fn as_equipment(odd: f64) -> World<1> {
             motor_limit: 100.0,
             rate_limit: 2.0,
             acceleration_limit: 1e3,
-            ..gyro(mount.0, mount.1)
+            ..cmg(mount.0, mount.1)
         });
     }
     let robot = Robot::new(bus, &[]).expect("a base is a robot");
-    flying(&robot, [0.0], &gyros(&list))
+    flying(&robot, [0.0], &cmgs(&list))
 }
 
 /// How far the rate of the base goes apart in a second in which the gimbals gather 1 rad/s, relative
@@ -264,7 +264,7 @@ fn apart(odd: f64) -> (f64, f64) {
 /// 60 N·m·s at 1 rad/s: round 6e-13 in the rate and 7e-13 in the motors' torque; odd by 0.004 kg·m²
 /// 3.5e-6 and 5.0e-6; odd by half of that 1.75e-6 and 2.5e-6.
 #[test]
-fn gyros_move_the_base_as_gimbals_and_rotors_of_a_multibody_do() {
+fn cmgs_move_the_base_as_gimbals_and_rotors_of_a_multibody_do() {
     let (round, round_torque) = apart(0.0);
     assert!(round < 1e-11 && round_torque < 1e-11, "{round:e} {round_torque:e}");
     let (odd, odd_torque) = apart(0.004);

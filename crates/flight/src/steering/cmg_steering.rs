@@ -1,15 +1,15 @@
-//! Gyro steering: which gimbal turns how fast.
+//! CMG steering: which gimbal turns how fast.
 
 use super::Allocation;
-use super::gyro_null_motion::null_motion;
+use super::cmg_null_motion::null_motion;
 use super::span::{all_finite, gram, least_norm, share_that_fits, sum};
-use wrasse_hardware::{ControlMomentGyro, GYROS};
+use wrasse_hardware::{CMGS, ControlMomentGyro};
 use wrasse_spatial::{Scalar, Sym3, Vec3};
 
 /// How the gimbal rates follow from the wanted change of momentum. A is the change of momentum by the
 /// angles over the mean momentum of a rotor (–).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub enum GyroSharing<T> {
+pub enum CmgSharing<T> {
     /// `Aᵀ (A Aᵀ)⁻¹`: exact, and helpless at a singularity.
     #[default]
     PseudoInverse,
@@ -39,20 +39,20 @@ pub struct Waves<T> {
     pub phases: [T; 3],
 }
 
-/// How gyros are steered.
+/// How CMGs are steered.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct GyroLaw<T> {
+pub struct CmgLaw<T> {
     /// How the rates follow from the wanted change of momentum.
-    pub sharing: GyroSharing<T>,
+    pub sharing: CmgSharing<T>,
     /// Gain of the null motion up the gradient of the singularity measure (rad/s); zero: none.
     pub null_gain: T,
 }
 
-impl<T: Scalar> GyroLaw<T> {
+impl<T: Scalar> CmgLaw<T> {
     /// A time (s) at which the waves stand as they do at `time` (s), at most half a wave from zero; zero
     /// without waves. A clock that is kept so goes on for ever, however few digits it has.
     pub fn within_a_wave(&self, time: T) -> T {
-        let GyroSharing::GeneralizedSingularityRobust(_, waves) = self.sharing else {
+        let CmgSharing::GeneralizedSingularityRobust(_, waves) = self.sharing else {
             return T::zero();
         };
         let (sin, cos) = (waves.frequency * time).sin_cos();
@@ -62,7 +62,7 @@ impl<T: Scalar> GyroLaw<T> {
     }
 }
 
-/// Gimbal rates (rad/s) that change the gyros' momentum as wanted; the base feels the opposite.
+/// Gimbal rates (rad/s) that change the CMGs' momentum as wanted; the base feels the opposite.
 ///
 /// At the rate limits all are slowed together, so the direction stays. What is then left of the limits
 /// goes to the null motion.
@@ -71,7 +71,7 @@ impl<T: Scalar> GyroLaw<T> {
 /// | name | meaning | unit |
 /// |---|---|---|
 /// | `usable` | whether each gimbal is to be turned | – |
-/// | `wanted_B` | change of the gyros' momentum against the base, base axes | N·m |
+/// | `wanted_B` | change of the CMGs' momentum against the base, base axes | N·m |
 /// | `angles` | gimbal angles | rad |
 /// | `time` | where the waves stand, on a clock that jumps by whole waves at most | s |
 ///
@@ -79,32 +79,32 @@ impl<T: Scalar> GyroLaw<T> {
 /// [`Bedrossian1990`](wrasse_spatial::references::Bedrossian1990) for the robust inverse,
 /// [`OhVadali1991`](wrasse_spatial::references::OhVadali1991) for its fading,
 /// [`WieBaileyHeiberg2001`](wrasse_spatial::references::WieBaileyHeiberg2001) for the waves.
-pub fn gyro_rates<T: Scalar>(
-    gyros: &[ControlMomentGyro<T>],
-    usable: &[bool; GYROS],
-    law: &GyroLaw<T>,
+pub fn cmg_rates<T: Scalar>(
+    cmgs: &[ControlMomentGyro<T>],
+    usable: &[bool; CMGS],
+    law: &CmgLaw<T>,
     wanted_B: Vec3<T>,
-    angles: &[T; GYROS],
+    angles: &[T; CMGS],
     time: T,
-) -> Allocation<T, GYROS> {
+) -> Allocation<T, CMGS> {
     let finite = all_finite(&wanted_B.to_array());
-    let used = used_gyros(gyros, usable.map(|usable| usable && finite), angles);
-    let mean = mean_momentum(gyros, used);
-    let axes = torque_axes(gyros, used, mean, angles);
+    let used = used_cmgs(cmgs, usable.map(|usable| usable && finite), angles);
+    let mean = mean_momentum(cmgs, used);
+    let axes = torque_axes(cmgs, used, mean, angles);
     let rates = law.sharing.rates(&axes, used, wanted_B * (T::one() / mean), time);
-    let upper = rate_limits(gyros, used);
+    let upper = rate_limits(cmgs, used);
     let excess = |most: T, k: usize| most.max(rates[k].abs() / upper[k]);
-    let excess = (0..GYROS).filter(|&k| used[k]).fold(T::one(), excess);
+    let excess = (0..CMGS).filter(|&k| used[k]).fold(T::one(), excess);
     let rates = rates.map(|rate| rate / excess);
 
-    let null = null_motion(gyros, &axes, used, mean, angles).map(|rate| rate * law.null_gain);
+    let null = null_motion(cmgs, &axes, used, mean, angles).map(|rate| rate * law.null_gain);
     let part = share_that_fits(&rates, &null, &upper.map(|rate| -rate), &upper);
     // Round-off must not push a limit.
     let values = core::array::from_fn(|k| (rates[k] + null[k] * part).clamp_to(upper[k]));
     Allocation { values, missing_B: wanted_B - sum(&axes, &values) * mean }
 }
 
-/// How far the gyros are from a singularity: `det A Aᵀ` for rotors of mean momentum one (–). Zero: in
+/// How far the CMGs are from a singularity: `det A Aᵀ` for rotors of mean momentum one (–). Zero: in
 /// some direction no usable gimbal can give torque.
 ///
 /// # Arguments
@@ -112,13 +112,13 @@ pub fn gyro_rates<T: Scalar>(
 /// |---|---|---|
 /// | `usable` | whether each gimbal is to be turned | – |
 /// | `angles` | gimbal angles | rad |
-pub fn gyro_singularity<T: Scalar>(
-    gyros: &[ControlMomentGyro<T>],
-    usable: &[bool; GYROS],
-    angles: &[T; GYROS],
+pub fn cmg_singularity<T: Scalar>(
+    cmgs: &[ControlMomentGyro<T>],
+    usable: &[bool; CMGS],
+    angles: &[T; CMGS],
 ) -> T {
-    let used = used_gyros(gyros, *usable, angles);
-    let axes = torque_axes(gyros, used, mean_momentum(gyros, used), angles);
+    let used = used_cmgs(cmgs, *usable, angles);
+    let axes = torque_axes(cmgs, used, mean_momentum(cmgs, used), angles);
     determinant(&gram(&axes, &used))
 }
 
@@ -128,30 +128,30 @@ fn determinant<T: Scalar>(G: &Sym3<T>) -> T {
     x.cross(y).dot(z).max(T::zero())
 }
 
-/// Which gyros can be steered: there, usable, with momentum and a rate.
-pub(super) fn used_gyros<T: Scalar>(
-    gyros: &[ControlMomentGyro<T>],
-    usable: [bool; GYROS],
-    angles: &[T; GYROS],
-) -> [bool; GYROS] {
-    let able = |gyro: &ControlMomentGyro<T>| {
-        let momentum = gyro.momentum.abs();
-        momentum.is_finite() && momentum > T::zero() && gyro.rate_limit > T::zero()
+/// Which CMGs can be steered: there, usable, with momentum and a rate.
+pub(super) fn used_cmgs<T: Scalar>(
+    cmgs: &[ControlMomentGyro<T>],
+    usable: [bool; CMGS],
+    angles: &[T; CMGS],
+) -> [bool; CMGS] {
+    let able = |cmg: &ControlMomentGyro<T>| {
+        let momentum = cmg.momentum.abs();
+        momentum.is_finite() && momentum > T::zero() && cmg.rate_limit > T::zero()
     };
-    core::array::from_fn(|k| usable[k] && angles[k].is_finite() && gyros.get(k).is_some_and(able))
+    core::array::from_fn(|k| usable[k] && angles[k].is_finite() && cmgs.get(k).is_some_and(able))
 }
 
 /// Largest rate of each gimbal in use (rad/s).
-fn rate_limits<T: Scalar>(gyros: &[ControlMomentGyro<T>], used: [bool; GYROS]) -> [T; GYROS] {
-    let limit = |k: usize| gyros.get(k).filter(|_| used[k]).map(|gyro| gyro.rate_limit);
+fn rate_limits<T: Scalar>(cmgs: &[ControlMomentGyro<T>], used: [bool; CMGS]) -> [T; CMGS] {
+    let limit = |k: usize| cmgs.get(k).filter(|_| used[k]).map(|cmg| cmg.rate_limit);
     core::array::from_fn(|k| limit(k).unwrap_or_default())
 }
 
 /// Mean momentum of the rotors in use (N·m·s); one if there is none.
-pub(super) fn mean_momentum<T: Scalar>(gyros: &[ControlMomentGyro<T>], used: [bool; GYROS]) -> T {
+pub(super) fn mean_momentum<T: Scalar>(cmgs: &[ControlMomentGyro<T>], used: [bool; CMGS]) -> T {
     let (mut sum, mut count) = (T::zero(), T::zero());
-    for (gyro, _) in gyros.iter().zip(used).filter(|(_, used)| *used) {
-        sum += gyro.momentum.abs();
+    for (cmg, _) in cmgs.iter().zip(used).filter(|(_, used)| *used) {
+        sum += cmg.momentum.abs();
         count += T::one();
     }
     if count > T::zero() { sum / count } else { T::one() }
@@ -159,27 +159,27 @@ pub(super) fn mean_momentum<T: Scalar>(gyros: &[ControlMomentGyro<T>], used: [bo
 
 /// Columns of A: torque axes, base axes, each times its rotor's momentum over the mean (–).
 pub(super) fn torque_axes<T: Scalar>(
-    gyros: &[ControlMomentGyro<T>],
-    used: [bool; GYROS],
+    cmgs: &[ControlMomentGyro<T>],
+    used: [bool; CMGS],
     mean: T,
-    angles: &[T; GYROS],
-) -> [Vec3<T>; GYROS] {
-    let mut axes = [Vec3::zero(); GYROS];
-    for (k, gyro) in gyros.iter().enumerate().take(GYROS).filter(|(k, _)| used[*k]) {
-        axes[k] = gyro.torque_axis(angles[k]) * (gyro.momentum / mean);
+    angles: &[T; CMGS],
+) -> [Vec3<T>; CMGS] {
+    let mut axes = [Vec3::zero(); CMGS];
+    for (k, cmg) in cmgs.iter().enumerate().take(CMGS).filter(|(k, _)| used[*k]) {
+        axes[k] = cmg.torque_axis(angles[k]) * (cmg.momentum / mean);
     }
     axes
 }
 
-impl<T: Scalar> GyroSharing<T> {
+impl<T: Scalar> CmgSharing<T> {
     /// Rates for a wanted change of momentum over the mean momentum of a rotor (1/s).
     fn rates(
         &self,
-        axes: &[Vec3<T>; GYROS],
-        used: [bool; GYROS],
+        axes: &[Vec3<T>; CMGS],
+        used: [bool; CMGS],
         wanted: Vec3<T>,
         time: T,
-    ) -> [T; GYROS] {
+    ) -> [T; CMGS] {
         let G = gram(axes, &used);
         let (damping, waves) = match self {
             Self::PseudoInverse => return least_norm(axes, &used, wanted),

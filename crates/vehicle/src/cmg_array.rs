@@ -1,4 +1,4 @@
-//! Arrays of control moment gyros: where the axes of each gyro point, in the array's frame, and where
+//! Arrays of control moment gyros: where the axes of each CMG point, in the array's frame, and where
 //! the gimbals start.
 
 use crate::rotation_in_degrees::sin_cos;
@@ -6,10 +6,10 @@ use crate::rotation_in_degrees::sin_cos;
 use wrasse_spatial::references::WieBaileyHeiberg2001;
 use wrasse_spatial::{Vec3, vec3};
 
-/// The mounting of one gyro: gimbal axis, and spin axis at zero gimbal angle (–).
+/// The mounting of one CMG: gimbal axis, and spin axis at zero gimbal angle (–).
 pub(crate) type Mounting = (Vec3<f64>, Vec3<f64>);
 
-/// Four gyros on the faces of a pyramid; gyro k+1 is gyro 1 turned by k right angles about z.
+/// Four CMGs on the faces of a pyramid; CMG k+1 is CMG 1 turned by k right angles about z.
 ///
 /// With spin axes `s cos δ + (g × s) sin δ` its momentum, in units of one rotor's, is
 /// `(-c s1 - c2 + c s3 + c4, c1 - c s2 - c3 + c s4, s (s1 + s2 + s3 + s4))`.
@@ -23,7 +23,7 @@ pub(crate) fn pyramid(skew_deg: f64) -> Vec<Mounting> {
         .to_vec()
 }
 
-/// Two rows of gyros on the slopes of a roof whose ridge is x.
+/// Two rows of CMGs on the slopes of a roof whose ridge is x.
 pub(crate) fn roof(skew_deg: f64, count: usize) -> Vec<Mounting> {
     let (s, c) = sin_cos(skew_deg);
     let row = |side: f64| (vec3(0.0, side * s, c), vec3(side, 0.0, 0.0));
@@ -31,12 +31,12 @@ pub(crate) fn roof(skew_deg: f64, count: usize) -> Vec<Mounting> {
     (0..count).map(|k| row(if k < half { 1.0 } else { -1.0 })).collect()
 }
 
-/// Four gyros in the upright sides of a box.
+/// Four CMGs in the upright sides of a box.
 pub(crate) fn four_sides() -> Vec<Mounting> {
     pyramid(90.0)
 }
 
-/// Gimbal angles of a roof (deg) without momentum and with torque about every axis: the gyros of a row
+/// Gimbal angles of a roof (deg) without momentum and with torque about every axis: the CMGs of a row
 /// are spread, and what is left along the ridge is made up for by the other row.
 pub(crate) fn roof_angles_deg(count: usize) -> Vec<f64> {
     let half = count / 2;
