@@ -5,7 +5,7 @@
 #[path = "inverse_kinematics/arms.rs"]
 #[allow(dead_code, reason = "the inverse kinematics asks more of the same arms")]
 mod arms;
-#[path = "steering/bench.rs"]
+#[path = "allocation/bench.rs"]
 #[allow(dead_code, reason = "the steering asks more of the same bench")]
 mod bench;
 #[path = "laws/flights.rs"]
@@ -15,7 +15,7 @@ mod flights;
 use bench::{actuators, cmgs, thrusters};
 use flights::{PERIOD, aside, at_rest, drifting, robot, setup};
 use wrasse_dynamics::{Robot, State, kinematics, mass_matrix, momentum};
-use wrasse_flight::steering::SteeringSetup;
+use wrasse_flight::allocation::AllocationSetup;
 use wrasse_flight::{
     Actuation, ArmLaw, Axes, BaseControlSetup, Command, FlightComputer, Held, Measurement, Phase,
     PositionHold, Sensed, Setup, against_tool_wrench,
@@ -28,12 +28,13 @@ const HOLD: PositionHold<f64> = PositionHold { bandwidth: 0.1, damping: 0.8 };
 /// The attitude and the place at the start are kept by these actuators.
 fn with(all: &Actuators<f64>, position_hold: Option<PositionHold<f64>>) -> Setup<f64, 7> {
     let plain = setup::<f64>(ArmLaw::AttitudeHeld, Measurement::Base);
-    let steering = SteeringSetup { holds_position: position_hold.is_some(), ..bench::setup(all) };
+    let allocator =
+        AllocationSetup { holds_position: position_hold.is_some(), ..bench::setup(all) };
     let quat_ND = Quat::from_matrix(&at_rest().X_NB.rotation);
     let base = BaseControlSetup {
         quat_ND,
         position_hold,
-        actuation: Actuation::Fitted(steering),
+        actuation: Actuation::Fitted(allocator),
         ..plain.base
     };
     Setup { base, ..plain }
@@ -66,11 +67,11 @@ fn the_centre_of_mass_is_pulled_home_and_braked() {
     let all = actuators(&[], &cmgs(), &thrusters(22.0));
     let mut computer = FlightComputer::new(with(&all, Some(HOLD)), &robot(), &held());
     let first = step(&mut computer, &at_rest(), None);
-    assert!(first.steering.wanted.force.norm() < 1e-12, "at home");
+    assert!(first.allocation.wanted.force.norm() < 1e-12, "at home");
     let by_N = vec3(0.3, -0.2, 0.5);
     let mut state = pushed(&at_rest(), by_N);
     state.V_NB_B = SpatialVelocity::from_array([0.0, 0.0, 0.0, 0.02, -0.03, 0.01]);
-    let got = step(&mut computer, &state, None).steering.wanted.force;
+    let got = step(&mut computer, &state, None).allocation.wanted.force;
     let v_N = state.X_NB.rotation * state.V_NB_B.linear;
     let mass = robot().mass();
     let (stiffness, damping) = (0.1 * 0.1, 2.0 * 0.8 * 0.1);
@@ -91,11 +92,11 @@ fn a_release_does_not_move_the_home() {
     let jump = centre_of_mass(&empty, &state) - centre_of_mass(&robot(), &state);
     assert!(jump.norm() > 0.1, "{jump:?} m");
     computer.robot_changed(&empty);
-    let force = step(&mut computer, &state, None).steering.wanted.force.norm();
+    let force = step(&mut computer, &state, None).allocation.wanted.force.norm();
     assert!(force < 1e-11, "{force:e} N");
     // And home is where it is from now on.
     let by_N = vec3(0.0, 0.4, 0.0);
-    let back = step(&mut computer, &pushed(&state, by_N), None).steering.wanted.force;
+    let back = step(&mut computer, &pushed(&state, by_N), None).allocation.wanted.force;
     let wanted = by_N.norm() * 0.1 * 0.1 * empty.mass();
     assert!((back.norm() - wanted).abs() < 1e-11, "{back:?}");
 }
@@ -127,7 +128,7 @@ fn a_felt_wrench_reaches_joints_and_base() {
     }
     for told in [
         commands[1].attitude_torque_B - commands[0].attitude_torque_B,
-        commands[1].steering.wanted.torque - commands[0].steering.wanted.torque,
+        commands[1].allocation.wanted.torque - commands[0].allocation.wanted.torque,
     ] {
         assert!((told - torque_B).norm() < 1e-11, "{told:?}, not {torque_B:?}");
     }
@@ -162,7 +163,7 @@ fn single_precision_turns_the_gimbals_alike() {
     let quat_ND = wide.base.quat_ND;
     let quat = [quat_ND.w, quat_ND.x, quat_ND.y, quat_ND.z].map(<f32 as Real>::from_f64);
     narrow.base.quat_ND = Quat { w: quat[0], x: quat[1], y: quat[2], z: quat[3] };
-    narrow.base.actuation = Actuation::Fitted(single(wide.base.actuation.steering().unwrap()));
+    narrow.base.actuation = Actuation::Fitted(single(wide.base.actuation.allocation().unwrap()));
     let start = at_rest();
     let single_start = State {
         X_NB: wrasse_spatial::Pose::from_f64(&start.X_NB),
@@ -185,21 +186,21 @@ fn single_precision_turns_the_gimbals_alike() {
 }
 
 /// The same steering in single precision: no thrusters, no unloading, the plainest laws.
-fn single(of: &SteeringSetup<f64>) -> SteeringSetup<f32> {
+fn single(of: &AllocationSetup<f64>) -> AllocationSetup<f32> {
     let c = <f32 as Real>::from_f64;
     let m = of.modulation;
-    SteeringSetup {
+    AllocationSetup {
         actuators: of.actuators.cast(),
-        wheels: wrasse_flight::steering::WheelLaw::default(),
-        cmgs: wrasse_flight::steering::CmgLaw::default(),
-        modulation: wrasse_flight::steering::Modulation {
+        wheels: wrasse_flight::allocation::WheelLaw::default(),
+        cmgs: wrasse_flight::allocation::CmgLaw::default(),
+        modulation: wrasse_flight::allocation::Modulation {
             gain: c(m.gain),
             lag: c(m.lag),
             on_level: c(m.on_level),
             off_level: c(m.off_level),
         },
         holds_position: false,
-        unloading: None,
+        desaturation: None,
     }
 }
 

@@ -5,7 +5,7 @@
 #[path = "inverse_kinematics/arms.rs"]
 #[allow(dead_code, reason = "the inverse kinematics asks more of the same arms")]
 mod arms;
-#[path = "steering/bench.rs"]
+#[path = "allocation/bench.rs"]
 #[allow(dead_code, reason = "the steering asks more of the same bench")]
 mod bench;
 #[path = "../../dynamics/tests/counting_allocator/mod.rs"]
@@ -18,8 +18,8 @@ use counting_allocator::allocations;
 use flights::{Flight, aside, at_rest, drifting, robot, setup};
 use std::hint::black_box;
 use wrasse_dynamics::kinematics;
-use wrasse_flight::steering::{
-    CmgLaw, CmgSharing, Damping, Steering, SteeringSetup, Unit, Waves, WheelLaw, WheelSharing,
+use wrasse_flight::allocation::{
+    AllocationSetup, Allocator, CmgLaw, CmgSharing, Damping, Unit, Waves, WheelLaw, WheelSharing,
     cmg_rates, preferred_angles, wheel_torques,
 };
 use wrasse_flight::{
@@ -54,7 +54,7 @@ fn a_control_period_allocates_nothing() {
             aside(Axes::Inertial, 0.2),
             Phase::Hold { what: Held::Tool, duration: 0.1 },
             to_tool_pose(X),
-            Phase::Grip { told: Grip::Grasp(0), keep: Held::Joints },
+            Phase::Grip { action: Grip::Grasp(0), keep: Held::Joints },
             Phase::Hold { what: Held::Nothing, duration: 0.1 },
             Phase::Hold { what: Held::Joints, duration: 0.1 },
         ];
@@ -137,16 +137,16 @@ fn cmg_steering_allocates_nothing() {
 }
 
 /// Everything that turns or pushes the base, by the laws that work hardest.
-fn all_groups() -> SteeringSetup<f64> {
+fn all_groups() -> AllocationSetup<f64> {
     let all = bench::actuators(&bench::wheels(0.2), &bench::cmgs(), &bench::thrusters(22.0));
     let (damping, waves) = (Damping { k0: 0.01, fading: 10.0 }, Waves::default());
-    SteeringSetup {
+    AllocationSetup {
         wheels: WheelLaw { sharing: WheelSharing::MinimumPeak, null_gain: 0.1 },
         cmgs: CmgLaw {
             sharing: CmgSharing::GeneralizedSingularityRobust(damping, waves),
             null_gain: 0.1,
         },
-        unloading: Some(bench::unloading()),
+        desaturation: Some(bench::desaturation()),
         ..bench::setup(&all)
     }
 }
@@ -154,17 +154,17 @@ fn all_groups() -> SteeringSetup<f64> {
 /// More is wanted than there is, wheels and CMGs are emptied, a wheel is lost, a reading is no number.
 #[test]
 fn steering_all_groups_allocates_nothing() {
-    let mut steering = Steering::new(&all_groups());
-    let needs = bench::needs([30.0, -20.0, 10.0], [5.0, 0.0, -8.0]);
+    let mut allocator = Allocator::new(&all_groups());
+    let demand = bench::demand([30.0, -20.0, 10.0], [5.0, 0.0, -8.0]);
     let wheel_speed = [400.0, 600.0, -300.0, f64::NAN, 0.0, 0.0, 0.0, 0.0];
     let readings = ActuatorReadings { wheel_speed, ..ActuatorReadings::default() };
     let calls = allocations(|| {
         for _ in 0..20 {
-            assert!(black_box(steering.steer(&needs, &readings)).report.unloading);
+            assert!(black_box(allocator.allocate(&demand, &readings)).report.desaturation);
         }
-        steering.isolate(Unit::Wheel(0));
-        steering.rest();
-        black_box(steering.steer(&needs, &readings));
+        allocator.disable(Unit::Wheel(0));
+        allocator.reset();
+        black_box(allocator.allocate(&demand, &readings));
     });
     assert_eq!(calls, 0);
 }

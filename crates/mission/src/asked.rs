@@ -32,7 +32,9 @@ impl Asked {
         let (rates, flown) = (&seen.state.v, &seen.dynamics.force.joints);
         let set_points = &command.set_points;
         Self {
-            efforts: from_fn(|j| if case.torque[j] { command.effort_asked[j] } else { flown[j] }),
+            efforts: from_fn(
+                |j| if case.torque[j] { command.effort_commanded[j] } else { flown[j] },
+            ),
             rates: from_fn(|j| larger(rates[j], set_points[j].rate / command.rate_share)),
             torque_cut_B: torque_cut(case, command, world),
         }
@@ -41,7 +43,7 @@ impl Asked {
 
 fn torque_cut(case: &Case, command: &Command<f64, JOINTS>, world: &World<JOINTS>) -> Vec3<f64> {
     match case.turning {
-        Turning::Fitted => command.steering.missing.torque,
+        Turning::Fitted => command.allocation.missing.torque,
         Turning::Ideal(_) if case.base == BaseAttitude::Controlled => {
             command.attitude_torque_B - world.actuator_torque_B()
         }

@@ -243,7 +243,7 @@ impl<'a> Flight<'a> {
             }
             if due(failure.told_at.unwrap_or(f64::INFINITY), self.told[i]) {
                 self.told[i] = true;
-                self.computer.isolate(failure.unit);
+                self.computer.disable(failure.unit);
                 let text = format!("the flight computer is told to do without {}", failure.name);
                 self.say(EventKind::Failure, text);
             }
@@ -264,7 +264,7 @@ fn not_finite(case: &Case, command: &Command<f64, JOINTS>) -> Option<String> {
             return Some(format!("the set-point of joint {name}"));
         }
     }
-    let (told, wanted) = (&command.actuators, &command.steering.wanted);
+    let (told, wanted) = (&command.actuators, &command.allocation.wanted);
     [
         ("the torque on the base", &command.attitude_torque_B.to_array()[..]),
         ("the torque of the steering", &wanted.torque.to_array()),

@@ -19,7 +19,7 @@ pub(crate) enum Passed {
     Blinded,
     ReadingRefused,
     EstimatorRestarted,
-    NoRelief,
+    NoPostureUnloading,
     DeadBand,
     Singular,
 }

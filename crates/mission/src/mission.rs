@@ -12,7 +12,7 @@ use crate::sampled_loops::{SampledLoop, sampled_loops};
 use std::sync::Arc;
 use wrasse_document::Complaint;
 use wrasse_dynamics::{Frame, JointKind, MassProperties, State};
-use wrasse_flight::steering::Unit;
+use wrasse_flight::allocation::Unit;
 use wrasse_flight::{Phase, Setup};
 use wrasse_hardware::{AttitudeActuator, Sensors};
 use wrasse_spatial::{Pose, SpatialVelocity};

@@ -305,12 +305,15 @@ fn of_equipment(
     let tank = actuators.tank.map_or(f64::NAN, |tank| tank.propellant);
     [
         missing(case.base == BaseAttitude::Controlled, asked.torque_cut_B),
-        missing(fitted && case.setup.base.position_hold.is_some(), command.steering.missing.force),
+        missing(
+            fitted && case.setup.base.position_hold.is_some(),
+            command.allocation.missing.force,
+        ),
         estimate_error,
         largest(wheels),
         largest(cmgs),
         motor_torque,
-        if steered { there(command.steering.singularity) } else { f64::NAN },
+        if steered { there(command.allocation.singularity) } else { f64::NAN },
         tank - readings.propellant,
     ]
 }

@@ -9,8 +9,8 @@ use crate::mission::FailureCase;
 use crate::read_setup::{attitude, axes, tool, vector};
 use crate::reading::Reading;
 use wrasse_document::{Severity, Step, at};
-use wrasse_flight::steering::{
-    CmgLaw, CmgSharing, Damping, Modulation, SteeringSetup, Unit, Unloading, Waves, WheelLaw,
+use wrasse_flight::allocation::{
+    AllocationSetup, CmgLaw, CmgSharing, Damping, Desaturation, Modulation, Unit, Waves, WheelLaw,
     WheelSharing, preferred_angles,
 };
 use wrasse_flight::{
@@ -176,7 +176,7 @@ pub(crate) fn base_control(
         r.error(at!["control", "position_hold"], message, help);
     }
     let steering = steering(r, &c.steering);
-    if let (true, Some(equipment), Some(_)) = (known, fitted, steering.unloading) {
+    if let (true, Some(equipment), Some(_)) = (known, fitted, steering.desaturation) {
         check_unloading(r, equipment);
     }
     BaseControlSetup {
@@ -189,7 +189,7 @@ pub(crate) fn base_control(
         quat_ND: attitude(r, at!["initial", "attitude"], file.initial.attitude),
         actuation: match (turning, fitted) {
             _ if file.world.base_attitude != BaseFile::Controlled => Actuation::None,
-            (Turning::Fitted, Some(e)) => Actuation::Fitted(SteeringSetup {
+            (Turning::Fitted, Some(e)) => Actuation::Fitted(AllocationSetup {
                 actuators: e.actuators,
                 holds_position: position_hold.is_some(),
                 ..steering
@@ -215,7 +215,7 @@ fn check_unloading(r: &mut Reading<'_>, equipment: &Equipment) {
 }
 
 /// The laws of the steering, for no actuators yet.
-fn steering(r: &mut Reading<'_>, file: &SteeringFile) -> SteeringSetup<f64> {
+fn steering(r: &mut Reading<'_>, file: &SteeringFile) -> AllocationSetup<f64> {
     let path = |key| [Step::Key("control"), Step::Key("steering"), Step::Key(key)];
     let wheels = WheelLaw {
         sharing: match file.wheels {
@@ -247,7 +247,7 @@ fn steering(r: &mut Reading<'_>, file: &SteeringFile) -> SteeringSetup<f64> {
             );
             r.error(&path("ends_at_nms"), message, "let it end below where it begins");
         }
-        Unloading {
+        Desaturation {
             target_B: Vec3::zero(),
             start: r.positive(&path("begins_at_nms"), u.begins_at_nms),
             stop: r.not_negative(&path("ends_at_nms"), u.ends_at_nms),
@@ -255,13 +255,13 @@ fn steering(r: &mut Reading<'_>, file: &SteeringFile) -> SteeringSetup<f64> {
             active: false,
         }
     });
-    SteeringSetup {
+    AllocationSetup {
         actuators: wrasse_hardware::Actuators::default(),
         wheels,
         cmgs: CmgLaw { sharing, null_gain },
         modulation: modulation(r, file),
         holds_position: false,
-        unloading,
+        desaturation: unloading,
     }
 }
 

@@ -12,7 +12,7 @@ use crate::read_setup::{
 use crate::reading::Reading;
 use wrasse_document::{Step, at};
 use wrasse_dynamics::JointKind;
-use wrasse_flight::steering::ToolTask;
+use wrasse_flight::allocation::ToolTask;
 use wrasse_flight::trajectory::{MotionLimits, ProfileShape};
 use wrasse_flight::{Grip, Held, JointTarget, JointTiming, LONGEST, Phase, Target, Timing};
 use wrasse_spatial::{Pose, Vec3};
@@ -60,12 +60,12 @@ pub(crate) fn phase(
         grasp_bounds = Some(bounds(r, i, grasp, mission));
         let path = at!["phase", i, "grasp", "payload"];
         let told = Grip::Grasp(r.find(path, "payload", &grasp.payload, payloads)?);
-        Phase::Grip { told, keep: held(grasp.keep) }
+        Phase::Grip { action: told, keep: held(grasp.keep) }
     } else {
         let release = file.release.as_ref()?;
         let path = at!["phase", i, "release", "payload"];
         let told = Grip::Release(r.find(path, "payload", &release.payload, payloads)?);
-        Phase::Grip { told, keep: held(release.keep) }
+        Phase::Grip { action: told, keep: held(release.keep) }
     };
     Some(PhaseCase { name: file.name.clone(), phase, grasp_bounds })
 }
@@ -82,7 +82,7 @@ fn relieve(
         let help = "set control.feel_tool_wrench = true: a force-torque sensor at the tool";
         r.error(at!["phase", i, "relieve"], message, help);
     }
-    Phase::Relieve {
+    Phase::UnloadByPosture {
         task: match file.keep {
             ToolTaskFile::Nothing => ToolTask::Free,
             ToolTaskFile::Orientation => ToolTask::Orientation,

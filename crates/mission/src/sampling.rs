@@ -5,7 +5,7 @@ use crate::format::MissionFile;
 use crate::read_base::Turning;
 use crate::reading::Reading;
 use wrasse_document::{Step, at};
-use wrasse_flight::steering::Modulation;
+use wrasse_flight::allocation::Modulation;
 use wrasse_vehicle::Equipment;
 use wrasse_world::{BaseAttitude, Stepper};
 

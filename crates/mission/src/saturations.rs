@@ -75,7 +75,7 @@ pub(crate) fn at_limits(
     let Actuators { wheels, cmgs, .. } = &case.equipment.actuators;
     let told = &command.actuators;
     let mut met = vec![];
-    if command.steering.missing.torque.norm() <= 1e-9 {
+    if command.allocation.missing.torque.norm() <= 1e-9 {
         return met;
     }
     for (i, wheel) in wheels.iter().enumerate() {

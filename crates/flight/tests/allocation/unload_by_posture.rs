@@ -8,8 +8,9 @@ use wrasse_dynamics::{
     BodyId, Frame, GeneralizedVelocity, PerBody, Robot, State, attitude_held_jacobian,
     attitude_torque, base_twist, inverse_dynamics, jacobian, kinematics, mass_matrix, momentum,
 };
-use wrasse_flight::steering::{
-    NoRelief, Relief, ReliefUse, ToolTask, momentum_rate, posture_relief,
+use wrasse_flight::allocation::{
+    NoPostureUnloading, PostureUnloading, PostureUnloadingUse, ToolTask, momentum_rate,
+    unload_by_posture,
 };
 use wrasse_spatial::{At, Mat3, Pose, SpatialForce, SpatialMomentum, Vec3, vec3};
 
@@ -25,8 +26,8 @@ fn push(force: Vec3<f64>) -> SpatialForce<f64> {
 }
 
 /// 0.2 rad/s for every joint: a slow arm.
-fn slowly(task: ToolTask) -> ReliefUse<f64, 7> {
-    ReliefUse { task, gain: 0.05, rate_limit: [0.2; 7] }
+fn slowly(task: ToolTask) -> PostureUnloadingUse<f64, 7> {
+    PostureUnloadingUse { task, gain: 0.05, rate_limit: [0.2; 7] }
 }
 
 fn demand(
@@ -42,9 +43,9 @@ fn relief(
     state: &State<f64, 7>,
     F: &SpatialForce<f64>,
     task: ToolTask,
-) -> Result<Relief<f64, 7>, NoRelief<f64>> {
+) -> Result<PostureUnloading<f64, 7>, NoPostureUnloading<f64>> {
     let (robot, tool) = atlas_class();
-    posture_relief(&kinematics(&robot, state), &tool, F, &slowly(task))
+    unload_by_posture(&kinematics(&robot, state), &tool, F, &slowly(task))
 }
 
 /// The state with the base moved as it answers these joint rates, momentum zero, base not turned.
@@ -173,7 +174,10 @@ fn a_whole_motion_lowers_the_demand() {
         match task {
             ToolTask::Orientation => {
                 assert!(tilt < 0.05, "{tilt}");
-                assert!(matches!(end, Some(NoRelief::NotFromHere { freedom: 1, .. })), "{end:?}");
+                assert!(
+                    matches!(end, Some(NoPostureUnloading::NotFromHere { freedom: 1, .. })),
+                    "{end:?}"
+                );
             }
             _ => assert!(tilt > 1.0 && end.is_none(), "{tilt}, {end:?}"),
         }
@@ -188,7 +192,7 @@ fn a_whole_motion_lowers_the_demand() {
 #[test]
 fn seven_joints_that_hold_the_tools_pose_have_no_freedom_left() {
     let why = relief(&at(BENT), &push(vec3(0.0, 0.0, 200.0)), ToolTask::Pose).unwrap_err();
-    let NoRelief::NoFreedom { joints: 7, conditions: 7, demand } = why else {
+    let NoPostureUnloading::NoFreedom { joints: 7, conditions: 7, demand } = why else {
         panic!("{why:?}");
     };
     assert!(demand > 100.0, "{demand}");
@@ -203,7 +207,7 @@ fn seven_joints_that_hold_the_tools_pose_have_no_freedom_left() {
 fn a_held_place_is_a_held_lever() {
     let ((robot, tool), F) = (atlas_class(), push(vec3(0.0, 0.0, 200.0)));
     let why = relief(&at(BENT), &F, ToolTask::Position).unwrap_err();
-    let NoRelief::LeverHeld { freedom: 1, lever, demand: stays } = why else {
+    let NoPostureUnloading::LeverHeld { freedom: 1, lever, demand: stays } = why else {
         panic!("{why:?}");
     };
     // Round-off: measured 0.
@@ -234,17 +238,20 @@ fn a_held_place_is_a_held_lever() {
 fn what_cannot_be_lowered_says_why() {
     let torque = SpatialForce::new(vec3(3.0, 4.0, 0.0), Vec3::zero());
     let why = relief(&at(BENT), &torque, ToolTask::Free).unwrap_err();
-    assert_eq!(why, NoRelief::NoForce { demand: 5.0 });
+    assert_eq!(why, NoPostureUnloading::NoForce { demand: 5.0 });
     // Along the line from the centre of mass to the tool.
     let (robot, tool) = atlas_class();
     let state = at(BENT);
     let k = kinematics(&robot, &state);
     let lever = k.pose(&tool).translation - k.centre_of_mass().1;
     let why = relief(&at(BENT), &push(lever * 100.0), ToolTask::Free).unwrap_err();
-    assert!(matches!(why, NoRelief::AlreadyLeast { demand } if demand < 1e-10), "{why:?}");
+    assert!(
+        matches!(why, NoPostureUnloading::AlreadyLeast { demand } if demand < 1e-10),
+        "{why:?}"
+    );
     // The straight arm and a force across it: every joint moves the tool along the force or not at all.
     let why = relief(&at([0.0; 7]), &push(vec3(0.0, 0.0, 50.0)), ToolTask::Free).unwrap_err();
-    assert!(matches!(why, NoRelief::NotFromHere { .. }), "{why:?}");
+    assert!(matches!(why, NoPostureUnloading::NotFromHere { .. }), "{why:?}");
     let nothing = push(vec3(f64::NAN, 1.0, 0.0));
     assert!(relief(&at(BENT), &nothing, ToolTask::Free).is_err());
 }
@@ -262,9 +269,9 @@ fn single_precision_moves_alike() {
     };
     let frame =
         Frame { body: BodyId::Link(6), X_BF: Pose::new(Mat3::identity(), vec3(0.2, 0.0, 0.0)) };
-    let joints = ReliefUse { task: ToolTask::Free, gain: 0.05_f32, rate_limit: [0.2; 7] };
+    let joints = PostureUnloadingUse { task: ToolTask::Free, gain: 0.05_f32, rate_limit: [0.2; 7] };
     let force = SpatialForce::new(Vec3::zero(), vec3(0.0_f32, 0.0, 200.0));
-    let single = posture_relief(&kinematics(&small, &state), &frame, &force, &joints).unwrap();
+    let single = unload_by_posture(&kinematics(&small, &state), &frame, &force, &joints).unwrap();
     for j in 0..7 {
         let off = (f64::from(single.qdot[j]) - double.qdot[j]).abs();
         assert!(off < 1e-5, "joint {j}: {off}");

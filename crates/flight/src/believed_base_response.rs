@@ -10,7 +10,7 @@ use wrasse_dynamics::{
 use wrasse_spatial::{Real, SpatialInertia, SpatialMomentum, SpatialVelocity, Vec3};
 
 /// Base motion that answers given joint rates and accelerations, by the law.
-pub fn answered_motion<T: Real, const J: usize>(
+pub fn believed_base_response<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     law: ArmLaw,
     belief: &Belief<T, J>,
@@ -18,12 +18,12 @@ pub fn answered_motion<T: Real, const J: usize>(
     qddot: &[T; J],
 ) -> ResolvedMotion<T, J> {
     let (at, mut forces) = (Configuration::at(robot, &belief.q), InverseDynamics::new());
-    answered_motion_in(robot, law, (&at, &mut forces), belief, qdot, qddot)
+    believed_base_response_in(robot, law, (&at, &mut forces), belief, qdot, qddot)
 }
 
 /// The same in a configuration that is at hand.
 #[inline(always)]
-pub(crate) fn answered_motion_in<T: Real, const J: usize>(
+pub(crate) fn believed_base_response_in<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     law: ArmLaw,
     (configuration, forces): (&Configuration<T, J>, &mut InverseDynamics<T, J>),
@@ -32,7 +32,7 @@ pub(crate) fn answered_motion_in<T: Real, const J: usize>(
     qddot: &[T; J],
 ) -> ResolvedMotion<T, J> {
     let M = &configuration.base;
-    let V_NB_B = answered_twist(law, &M.M_bb, &M.momentum_of_rates(qdot), &belief.h_Scm_B());
+    let V_NB_B = base_twist_response(law, &M.M_bb, &M.momentum_of_rates(qdot), &belief.h_Scm_B());
     let still = SpatialVelocity::zero();
     let nu = Generalized { base: V_NB_B, joints: *qdot };
     let nudot = Generalized { base: still, joints: *qddot };
@@ -44,7 +44,7 @@ pub(crate) fn answered_motion_in<T: Real, const J: usize>(
 /// Base twist `V_NB_B` by which the momentum is kept, as far as the law asks for that; `h_rates` is
 /// that of the joint rates alone, about Bo in base axes.
 #[inline(always)]
-pub(crate) fn answered_twist<T: Real>(
+pub(crate) fn base_twist_response<T: Real>(
     law: ArmLaw,
     M_bb: &SpatialInertia<T>,
     h_rates: &SpatialMomentum<T>,
@@ -66,7 +66,10 @@ pub(crate) fn answered_twist<T: Real>(
 /// Angular momentum of the joints' motion about the system's centre of mass (N·m·s, base axes), on a
 /// base that does not turn but gives way.
 #[inline(always)]
-pub(crate) fn swing_B<T: Real>(M_bb: &SpatialInertia<T>, h_rates: &SpatialMomentum<T>) -> Vec3<T> {
+pub(crate) fn joint_momentum_B<T: Real>(
+    M_bb: &SpatialInertia<T>,
+    h_rates: &SpatialMomentum<T>,
+) -> Vec3<T> {
     h_rates.about(M_bb.centre_of_mass()).torque
 }
 

@@ -1,6 +1,6 @@
-//! The door between what flies and the rest: plain data in, plain data out, once per control period.
+//! The interface between what flies and the rest: plain data in, plain data out, once per control period.
 
-use crate::steering::{NoRelief, SteeringReport};
+use crate::allocation::{AllocationReport, NoPostureUnloading};
 use crate::trajectory::ToolMotion;
 use wrasse_dynamics::State;
 use wrasse_hardware::{ActuatorCommand, ActuatorReadings, SetPoint, TrackerReading};
@@ -58,7 +58,7 @@ impl<T: Real, const J: usize> Sensed<T, J> {
     }
 }
 
-/// What the actuators are told for the coming control period.
+/// Commands of the actuators for the coming control period.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Command<T, const J: usize> {
     /// Where each joint should be at the end of the period.
@@ -67,18 +67,18 @@ pub struct Command<T, const J: usize> {
     /// the limits of the drives.
     pub effort: [T; J],
     /// The same before limits.
-    pub effort_asked: [T; J],
+    pub effort_commanded: [T; J],
     /// Share of the rates that the tool's way asks of the joints which their rate limits leave (–).
     pub rate_share: T,
-    /// Torque that the base should feel over the period, base axes (N·m): what an ideal actuator is
-    /// told, and what the steering has to give.
+    /// Torque that the base should feel over the period, base axes (N·m): the command of an
+    /// ideal actuator, and the demand on the allocation.
     pub attitude_torque_B: Vec3<T>,
-    /// What wheels, CMGs and thrusters are told.
+    /// Commands of wheels, CMGs and thrusters.
     pub actuators: ActuatorCommand<T>,
-    /// What the steering could do of what was wanted.
-    pub steering: SteeringReport<T>,
-    /// Why the posture cannot relieve the base, where that is the phase.
-    pub no_relief: Option<NoRelief<T>>,
+    /// What the allocation can give of the demand.
+    pub allocation: AllocationReport<T>,
+    /// Why no change of posture unloads the base, where that is the phase.
+    pub no_posture_unloading: Option<NoPostureUnloading<T>>,
     /// What the grip should do now.
     pub grip: Option<Grip>,
     /// Number of the phase that this period belongs to; the number of phases when all are done.
@@ -89,7 +89,7 @@ pub struct Command<T, const J: usize> {
     pub axes: Axes,
 }
 
-/// What a grip can be told.
+/// Commands of a grip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Grip {
     /// Grasp the payload of this number.

@@ -1,12 +1,14 @@
 //! Whatever sets, wants and readings there are: no command beyond limits, none that is no number.
 
-use crate::bench::{Bench, PERIOD, actuators, cmgs, needs, setup, thrusters, unloading, wheels};
+use crate::bench::{
+    Bench, PERIOD, actuators, cmgs, demand, desaturation, setup, thrusters, wheels,
+};
 use proptest::num::f64::{ANY, INFINITE, NEGATIVE, NORMAL, POSITIVE, QUIET_NAN, SUBNORMAL, ZERO};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use wrasse_flight::steering::{
-    CmgLaw, CmgSharing, Damping, Modulation, Needs, Steering, SteeringSetup, Unloading, Waves,
-    WheelLaw, WheelSharing,
+use wrasse_flight::allocation::{
+    AllocationSetup, Allocator, CmgLaw, CmgSharing, Damping, Demand, Desaturation, Modulation,
+    Waves, WheelLaw, WheelSharing,
 };
 use wrasse_hardware::{ActuatorReadings, Actuators, THRUSTERS};
 use wrasse_spatial::{Scalar, SpatialForce, Vec3};
@@ -56,14 +58,14 @@ fn some_setup<T: Scalar>(
     all: &Actuators<f64>,
     robust: bool,
     holds_position: bool,
-) -> SteeringSetup<T> {
+) -> AllocationSetup<T> {
     let c = T::from_f64;
     let damping = Damping { k0: c(0.01), fading: c(10.0) };
     let waves = Waves { height: c(0.01), frequency: c(1.6), phases: [c(0.0), c(1.6), c(3.1)] };
     let plain = setup(all);
     let m = plain.modulation;
-    let empty = unloading();
-    SteeringSetup {
+    let empty = desaturation();
+    AllocationSetup {
         actuators: all.cast(),
         wheels: WheelLaw {
             sharing: if robust { WheelSharing::MinimumPeak } else { WheelSharing::PseudoInverse },
@@ -84,7 +86,7 @@ fn some_setup<T: Scalar>(
             off_level: c(m.off_level),
         },
         holds_position,
-        unloading: robust.then(|| Unloading {
+        desaturation: robust.then(|| Desaturation {
             target_B: Vec3::zero(),
             gain: c(empty.gain),
             start: c(empty.start),
@@ -96,12 +98,12 @@ fn some_setup<T: Scalar>(
 
 /// A few periods in a row. Whether all commands are within limits, and whether all that is reported
 /// is finite.
-fn steered<T: Scalar>(setup: &SteeringSetup<T>, periods: &[Period]) -> (bool, bool) {
+fn allocation<T: Scalar>(setup: &AllocationSetup<T>, periods: &[Period]) -> (bool, bool) {
     let three = |of: [f64; 3]| Vec3::from_array(of.map(T::from_f64));
-    let (mut steering, all, mut within, mut finite) =
-        (Steering::new(setup), &setup.actuators, true, true);
+    let (mut allocator, all, mut within, mut finite) =
+        (Allocator::new(setup), &setup.actuators, true, true);
     for (torque, force, w_NB_B, speeds, angles) in periods {
-        let needs = Needs {
+        let demand = Demand {
             wanted: SpatialForce::new(three(*torque), three(*force)),
             w_NB_B: three(*w_NB_B),
             p_BScm_B: three([0.1, -0.2, 0.05]),
@@ -112,7 +114,7 @@ fn steered<T: Scalar>(setup: &SteeringSetup<T>, periods: &[Period]) -> (bool, bo
             gimbal_angle: angles.map(T::from_f64),
             ..ActuatorReadings::default()
         };
-        let told = steering.steer(&needs, &readings);
+        let told = allocator.allocate(&demand, &readings);
         for (k, &torque) in told.command.wheel_torque.iter().enumerate() {
             let limit = all.wheels.get(k).map_or(T::zero(), |w| w.torque_limit);
             within &= torque.abs() <= limit;
@@ -122,7 +124,7 @@ fn steered<T: Scalar>(setup: &SteeringSetup<T>, periods: &[Period]) -> (bool, bo
             within &= rate.abs() <= limit;
         }
         for (k, &on) in told.command.thruster_on.iter().enumerate() {
-            let limit = if k < all.thrusters.len() { needs.period } else { T::zero() };
+            let limit = if k < all.thrusters.len() { demand.period } else { T::zero() };
             within &= T::zero() <= on && on <= limit;
         }
         let report = told.report;
@@ -143,8 +145,8 @@ proptest! {
         holds: bool,
         periods in prop::collection::vec(any_period(), 1..6)
     ) {
-        prop_assert!(steered(&some_setup::<f64>(&all, robust, holds), &periods).0);
-        prop_assert!(steered(&some_setup::<f32>(&all, robust, holds), &periods).0, "f32");
+        prop_assert!(allocation(&some_setup::<f64>(&all, robust, holds), &periods).0);
+        prop_assert!(allocation(&some_setup::<f32>(&all, robust, holds), &periods).0, "f32");
     }
 
     #[test]
@@ -154,8 +156,8 @@ proptest! {
         holds: bool,
         periods in prop::collection::vec(decent_period(), 1..6)
     ) {
-        prop_assert!(steered(&some_setup::<f64>(&all, robust, holds), &periods).1);
-        prop_assert!(steered(&some_setup::<f32>(&all, robust, holds), &periods).1, "f32");
+        prop_assert!(allocation(&some_setup::<f64>(&all, robust, holds), &periods).1);
+        prop_assert!(allocation(&some_setup::<f32>(&all, robust, holds), &periods).1, "f32");
     }
 }
 
@@ -164,7 +166,7 @@ proptest! {
 #[test]
 fn nothing_that_came_in_spoils_the_steering_for_ever() {
     let all = actuators(&wheels(0.2), &cmgs(), &thrusters(2.0));
-    let good = needs([0.3, -0.2, 0.4], [0.5, 0.2, -0.3]);
+    let good = demand([0.3, -0.2, 0.4], [0.5, 0.2, -0.3]);
     for bad in [f64::NAN, f64::INFINITY, -f64::MAX] {
         let mut bench = Bench::new(&setup(&all));
         let mut spoilt = good;
@@ -193,7 +195,7 @@ proptest! {
         let mut bench = Bench::new(&setup(&actuators(&[], &cmgs(), &thrusters(22.0))));
         let (mut open_for, mut shortest) = ([0.0_f64; THRUSTERS], f64::INFINITY);
         for (torque, force) in wants {
-            bench.step(&needs(torque, force));
+            bench.step(&demand(torque, force));
             for (so_far, on) in open_for.iter_mut().zip(bench.last.command.thruster_on) {
                 *so_far += on;
                 if on < PERIOD {

@@ -1,12 +1,12 @@
 //! What servos, friction and failures take is asked for again; what was reported missing is not.
 
-use crate::bench::{Bench, PERIOD, actuators, cmgs, needs, setup, size, wheels};
-use wrasse_flight::steering::{Steering, Unit};
+use crate::bench::{Bench, PERIOD, actuators, cmgs, demand, setup, size, wheels};
+use wrasse_flight::allocation::{Allocator, Unit};
 use wrasse_hardware::ActuatorReadings;
 use wrasse_spatial::Vec3;
 
 /// Rate at which a debt is paid off (1/s).
-const CATCH_UP: f64 = 10.0;
+const INTEGRAL_GAIN: f64 = 10.0;
 
 fn with_wheels() -> Bench {
     Bench::new(&setup(&actuators(&wheels(0.2), &[], &[])))
@@ -20,15 +20,15 @@ fn with_cmgs() -> Bench {
 /// the same share in each period: `(1 - 10 T)^k` of the drag is left, to round-off. Measured 3.5e-15 N·m off that.
 #[test]
 fn what_friction_takes_dies_out_at_the_stated_rate() {
-    let needs = needs([0.08, -0.02, 0.04], [0.0; 3]);
+    let demand = demand([0.08, -0.02, 0.04], [0.0; 3]);
     let mut bench = with_wheels();
     bench.friction = [0.02, -0.02, 0.01, 0.02, 0.0, 0.0, 0.0, 0.0];
-    let off_at_first = bench.step(&needs).torque - needs.wanted.torque;
+    let off_at_first = bench.step(&demand).torque - demand.wanted.torque;
     assert!(size(off_at_first) > 0.01, "{off_at_first:?}");
     let mut worst = 0.0_f64;
     for k in 1..150 {
-        let off = bench.step(&needs).torque - needs.wanted.torque;
-        worst = worst.max(size(off - off_at_first * (1.0 - CATCH_UP * PERIOD).powi(k)));
+        let off = bench.step(&demand).torque - demand.wanted.torque;
+        worst = worst.max(size(off - off_at_first * (1.0 - INTEGRAL_GAIN * PERIOD).powi(k)));
     }
     assert!(worst < 1e-14, "{worst:e} N·m");
 }
@@ -37,14 +37,14 @@ fn what_friction_takes_dies_out_at_the_stated_rate() {
 /// makes `s² + 30 s + 300` of the loop: the rest is gone after a second. Measured 0.0049 N·m·s short.
 #[test]
 fn what_a_lagging_servo_holds_back_is_given_later() {
-    let needs = needs([3.0, -2.0, 4.0], [0.0; 3]);
+    let demand = demand([3.0, -2.0, 4.0], [0.0; 3]);
     let mut bench = with_cmgs();
     bench.servo = 30.0;
     let mut felt = Vec3::zero();
     for _ in 0..100 {
-        felt += bench.step(&needs).torque * PERIOD;
+        felt += bench.step(&demand).torque * PERIOD;
     }
-    let short = size(needs.wanted.torque * 2.0 - felt);
+    let short = size(demand.wanted.torque * 2.0 - felt);
     assert!(short < 0.02, "{short} N·m·s short");
 }
 
@@ -52,14 +52,14 @@ fn what_a_lagging_servo_holds_back_is_given_later() {
 /// Measured 1.4 N·m off at first, 0.0077 N·m after 3 s.
 #[test]
 fn a_stuck_gimbal_that_nobody_knows_of_is_made_up_for() {
-    let needs = needs([2.0, -1.0, 3.0], [0.0; 3]);
+    let demand = demand([2.0, -1.0, 3.0], [0.0; 3]);
     let mut bench = with_cmgs();
     bench.stuck = Some(1);
-    let at_first = size(bench.step(&needs).torque - needs.wanted.torque);
+    let at_first = size(bench.step(&demand).torque - demand.wanted.torque);
     for _ in 0..150 {
-        bench.step(&needs);
+        bench.step(&demand);
     }
-    let later = size(bench.step(&needs).torque - needs.wanted.torque);
+    let later = size(bench.step(&demand).torque - demand.wanted.torque);
     assert!(at_first > 0.5, "{at_first} N·m off at first");
     assert!(later < 0.02, "{later} N·m off later");
 }
@@ -70,12 +70,12 @@ fn a_stuck_gimbal_that_nobody_knows_of_is_made_up_for() {
 fn nothing_winds_up_while_more_is_wanted_than_wheels_have() {
     let mut bench = with_wheels();
     for _ in 0..500 {
-        bench.step(&needs([3.0, -2.0, 4.0], [0.0; 3]));
+        bench.step(&demand([3.0, -2.0, 4.0], [0.0; 3]));
         assert!(size(bench.last.report.missing.torque) > 1.0, "{:?}", bench.last.report);
     }
     let mut worst = 0.0_f64;
     for _ in 0..50 {
-        worst = worst.max(size(bench.step(&needs([0.0; 3], [0.0; 3])).torque));
+        worst = worst.max(size(bench.step(&demand([0.0; 3], [0.0; 3])).torque));
     }
     assert!(worst < 1e-13, "{worst:e} N·m that nobody wanted");
 }
@@ -87,13 +87,13 @@ fn nothing_winds_up_while_more_is_wanted_than_cmgs_hold() {
     let mut bench = with_cmgs();
     let mut missing = 0.0;
     for _ in 0..500 {
-        bench.step(&needs([20.0, -60.0, 30.0], [0.0; 3]));
+        bench.step(&demand([20.0, -60.0, 30.0], [0.0; 3]));
         missing += size(bench.last.report.missing.torque) * PERIOD;
     }
     let mut felt = Vec3::zero();
     let mut worst = 0.0_f64;
     for _ in 0..100 {
-        let torque = bench.step(&needs([0.0; 3], [0.0; 3])).torque;
+        let torque = bench.step(&demand([0.0; 3], [0.0; 3])).torque;
         worst = worst.max(size(torque));
         felt += torque * PERIOD;
     }
@@ -107,11 +107,11 @@ fn friction_during_saturation_does_not_wind_up() {
     let mut bench = with_wheels();
     bench.friction = [0.02, -0.02, 0.01, 0.02, 0.0, 0.0, 0.0, 0.0];
     for _ in 0..500 {
-        bench.step(&needs([3.0, -2.0, 4.0], [0.0; 3]));
+        bench.step(&demand([3.0, -2.0, 4.0], [0.0; 3]));
     }
     let mut worst = 0.0_f64;
     for _ in 0..50 {
-        worst = worst.max(size(bench.step(&needs([0.0; 3], [0.0; 3])).torque));
+        worst = worst.max(size(bench.step(&demand([0.0; 3], [0.0; 3])).torque));
     }
     assert!(worst < 1e-13, "{worst:e} N·m that nobody wanted");
 }
@@ -119,11 +119,11 @@ fn friction_during_saturation_does_not_wind_up() {
 /// Wheels that turn already are not taken for a debt.
 #[test]
 fn the_first_period_owes_nothing() {
-    let needs = needs([0.05, -0.03, 0.06], [0.0; 3]);
+    let demand = demand([0.05, -0.03, 0.06], [0.0; 3]);
     let (mut still, mut turning) = (with_wheels(), with_wheels());
     turning.readings.wheel_speed = [300.0, -100.0, 50.0, 20.0, 0.0, 0.0, 0.0, 0.0];
-    still.step(&needs);
-    turning.step(&needs);
+    still.step(&demand);
+    turning.step(&demand);
     assert_eq!(still.last.command, turning.last.command);
 }
 
@@ -131,13 +131,13 @@ fn the_first_period_owes_nothing() {
 /// asked for in one, and it is gone. Measured 1.3e-15 N·m off.
 #[test]
 fn a_debt_is_paid_in_one_long_period_and_does_not_grow() {
-    let mut needs = needs([0.08, -0.02, 0.04], [0.0; 3]);
-    needs.period = 0.5;
+    let mut demand = demand([0.08, -0.02, 0.04], [0.0; 3]);
+    demand.period = 0.5;
     let mut bench = with_wheels();
     bench.friction = [0.02, -0.02, 0.01, 0.02, 0.0, 0.0, 0.0, 0.0];
-    bench.step(&needs);
+    bench.step(&demand);
     for _ in 0..50 {
-        let off = size(bench.step(&needs).torque - needs.wanted.torque);
+        let off = size(bench.step(&demand).torque - demand.wanted.torque);
         assert!(off < 1e-14, "{off:e} N·m off");
     }
 }
@@ -146,16 +146,16 @@ fn a_debt_is_paid_in_one_long_period_and_does_not_grow() {
 /// 0.012 N·m at first, nothing after 3 s.
 #[test]
 fn an_isolated_wheel_that_runs_down_is_held_against() {
-    let needs = needs([0.0; 3], [0.0; 3]);
+    let demand = demand([0.0; 3], [0.0; 3]);
     let mut bench = with_wheels();
     bench.readings.wheel_speed[2] = 400.0;
     bench.friction[2] = 0.02;
-    bench.steering.isolate(Unit::Wheel(2));
-    let at_first = size(bench.step(&needs).torque);
+    bench.allocator.disable(Unit::Wheel(2));
+    let at_first = size(bench.step(&demand).torque);
     for _ in 0..150 {
-        bench.step(&needs);
+        bench.step(&demand);
     }
-    let later = size(bench.step(&needs).torque);
+    let later = size(bench.step(&demand).torque);
     assert!(at_first > 0.01, "{at_first} N·m");
     assert!(later < 1e-14, "{later:e} N·m");
     assert_eq!(bench.last.command.wheel_torque[2], 0.0);
@@ -166,29 +166,29 @@ fn an_isolated_wheel_that_runs_down_is_held_against() {
 /// off after 6 s.
 #[test]
 fn a_reading_that_is_no_number_silences_its_unit_alone_and_for_no_longer() {
-    let needs = needs([0.05, -0.03, 0.06], [0.0; 3]);
+    let demand = demand([0.05, -0.03, 0.06], [0.0; 3]);
     let mut bench = Bench::new(&setup(&actuators(&wheels(0.2), &cmgs(), &[])));
-    let heard = |bench: &mut Bench, spoilt: f64| {
+    let last_valid = |bench: &mut Bench, spoilt: f64| {
         let told = bench.readings;
         bench.readings.wheel_speed[1] += spoilt;
         bench.readings.gimbal_angle[2] += spoilt;
-        let last = bench.steering.steer(&needs, &bench.readings);
+        let last = bench.allocator.allocate(&demand, &bench.readings);
         bench.readings = told;
         last
     };
     for _ in 0..20 {
-        bench.step(&needs);
+        bench.step(&demand);
     }
     for spoilt in [f64::NAN, f64::INFINITY] {
-        let last = heard(&mut bench, spoilt);
+        let last = last_valid(&mut bench, spoilt);
         assert_eq!(last.command.wheel_torque[1], 0.0);
         assert_eq!(last.command.gimbal_rate[2], 0.0);
         assert!(size(last.report.missing.torque) < 1e-12, "{:?}", last.report);
     }
     for _ in 0..300 {
-        bench.step(&needs);
+        bench.step(&demand);
     }
-    let off = size(bench.step(&needs).torque - needs.wanted.torque);
+    let off = size(bench.step(&demand).torque - demand.wanted.torque);
     assert!(off < 1e-5, "{off:e} N·m off");
 }
 
@@ -196,11 +196,11 @@ fn a_reading_that_is_no_number_silences_its_unit_alone_and_for_no_longer() {
 /// Measured 3e-17 N·m off.
 #[test]
 fn a_torque_that_is_no_number_is_not_remembered() {
-    let good = needs([0.05, -0.03, 0.06], [0.0; 3]);
+    let good = demand([0.05, -0.03, 0.06], [0.0; 3]);
     let mut bench = with_wheels();
     bench.step(&good);
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        bench.step(&needs([bad, 0.0, 1.0], [0.0; 3]));
+        bench.step(&demand([bad, 0.0, 1.0], [0.0; 3]));
         assert_eq!(bench.last.command.wheel_torque, [0.0; 8]);
         let off = size(bench.step(&good).torque - good.wanted.torque);
         assert!(off < 1e-14, "{off:e} N·m off");
@@ -210,16 +210,16 @@ fn a_torque_that_is_no_number_is_not_remembered() {
 /// Bearings that drag while nothing is steered leave no debt behind.
 #[test]
 fn what_happens_at_rest_is_not_owed() {
-    let needs = needs([0.05, -0.03, 0.06], [0.0; 3]);
+    let demand = demand([0.05, -0.03, 0.06], [0.0; 3]);
     let (mut bench, mut fresh) = (with_wheels(), with_wheels());
     for _ in 0..20 {
-        bench.step(&needs);
+        bench.step(&demand);
     }
     bench.readings.wheel_speed = [300.0, -100.0, 50.0, 20.0, 0.0, 0.0, 0.0, 0.0];
-    bench.steering.rest();
+    bench.allocator.reset();
     fresh.readings = bench.readings;
-    bench.step(&needs);
-    fresh.step(&needs);
+    bench.step(&demand);
+    fresh.step(&demand);
     assert_eq!(bench.last.command, fresh.last.command);
 }
 
@@ -228,14 +228,14 @@ fn what_happens_at_rest_is_not_owed() {
 #[test]
 fn what_is_owed_is_not_told_as_missing() {
     let setup = setup(&actuators(&wheels(0.2), &[], &[]));
-    let mut steering = Steering::new(&setup);
-    let idle = needs([0.0; 3], [0.0; 3]);
+    let mut allocator = Allocator::new(&setup);
+    let idle = demand([0.0; 3], [0.0; 3]);
     let mut readings = ActuatorReadings::default();
-    steering.steer(&idle, &readings);
+    allocator.allocate(&idle, &readings);
     // Something turned the first wheel by 5 rad/s: 0.5 N·m·s that nobody asked for.
     readings.wheel_speed[0] = 5.0;
-    let steered = steering.steer(&idle, &readings);
-    let most = steered.command.wheel_torque.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+    let allocation = allocator.allocate(&idle, &readings);
+    let most = allocation.command.wheel_torque.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
     assert!(most > 0.19, "the wheels work at the debt: {most} N·m");
-    assert_eq!(size(steered.report.missing.torque), 0.0);
+    assert_eq!(size(allocation.report.missing.torque), 0.0);
 }

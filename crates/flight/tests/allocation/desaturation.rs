@@ -1,13 +1,13 @@
 //! Unloading: where it starts and stops, and what is left.
 
-use wrasse_flight::steering::Unloading;
+use wrasse_flight::allocation::Desaturation;
 use wrasse_spatial::{Vec3, vec3};
 
 /// Starts above 2, stops below 0.5 N·m·s, and pulls back towards the target.
 #[test]
 fn unloading_starts_late_and_stops_later() {
     let target_B = vec3(1.0, 0.0, 0.0);
-    let mut law = Unloading { target_B, gain: 0.1, start: 2.0, stop: 0.5, active: false };
+    let mut law = Desaturation { target_B, gain: 0.1, start: 2.0, stop: 0.5, active: false };
     let asked = [2.9, 3.1, 2.0, 1.6, 1.4, 2.9, -1.1].map(|x| law.torque(vec3(x, 0.0, 0.0)).x);
     let wanted = [0.0_f64, -0.21, -0.1, -0.06, 0.0, 0.0, 0.21];
     for i in 0..7 {
@@ -21,7 +21,7 @@ fn unloading_starts_late_and_stops_later() {
 #[test]
 fn wheels_that_answer_the_thrusters_are_emptied() {
     let mut law =
-        Unloading { target_B: Vec3::zero(), gain: 0.1, start: 5.0, stop: 0.5, active: false };
+        Desaturation { target_B: Vec3::zero(), gain: 0.1, start: 5.0, stop: 0.5, active: false };
     let (mut stored, mut fired) = (vec3(3.0_f64, -4.0, 2.0), 0.0_f64);
     let first: f64 = stored.norm();
     for _ in 0..2000 {

@@ -3,7 +3,7 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
-use wrasse_flight::steering::{Selection, WrenchAxes, controllable_axes, thruster_duties};
+use wrasse_flight::allocation::{Selection, WrenchAxes, controllable_axes, thruster_duties};
 use wrasse_hardware::{THRUSTERS, Thruster};
 use wrasse_spatial::{SpatialForce, Vec3, vec3};
 

@@ -1,7 +1,7 @@
 //! Pulse modulation against its closed form, a finely stepped simulation, and what is wanted.
 
 use crate::figures::Page;
-use wrasse_flight::steering::{Modulation, Modulator};
+use wrasse_flight::allocation::{Modulation, Modulator};
 use wrasse_spatial::Real;
 
 /// Levels of a published servicer: 0.25 and 0.15 at a gain of 10 and a lag of 0.2 s.

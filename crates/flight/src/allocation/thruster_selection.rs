@@ -16,7 +16,7 @@ pub struct WrenchAxes {
 impl WrenchAxes {
     /// Torque and force.
     pub const ALL: Self = Self { torque: [true; 3], force: [true; 3] };
-    /// Torque; whatever force comes with it is nobody's business.
+    /// Torque; the force that comes with it is not controlled.
     pub const TORQUE: Self = Self { torque: [true; 3], force: [false; 3] };
 
     fn to_array(self) -> [bool; 6] {

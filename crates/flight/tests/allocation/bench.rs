@@ -1,8 +1,8 @@
 //! A bench for steering: a base that is turned as told, with actuators that do what they are told, or
 //! nearly. Not the simulated world: a few lines that can be read at once.
 
-use wrasse_flight::steering::{
-    CmgLaw, Modulation, Needs, Steered, Steering, SteeringSetup, Unloading, WheelLaw,
+use wrasse_flight::allocation::{
+    Allocation, AllocationSetup, Allocator, CmgLaw, Demand, Desaturation, Modulation, WheelLaw,
 };
 use wrasse_hardware::{
     ActuatorCommand, ActuatorReadings, Actuators, CMGS, ControlMomentGyro, List, ReactionWheel,
@@ -77,24 +77,24 @@ pub(crate) fn actuators(
 }
 
 /// The plainest laws; thrusters hold the position.
-pub(crate) fn setup(actuators: &Actuators<f64>) -> SteeringSetup<f64> {
-    SteeringSetup {
+pub(crate) fn setup(actuators: &Actuators<f64>) -> AllocationSetup<f64> {
+    AllocationSetup {
         actuators: *actuators,
         wheels: WheelLaw::default(),
         cmgs: CmgLaw::default(),
         modulation: Modulation { gain: 10.0, lag: 1.0, on_level: 0.45, off_level: 0.15 },
         holds_position: true,
-        unloading: None,
+        desaturation: None,
     }
 }
 
-pub(crate) fn unloading() -> Unloading<f64> {
-    Unloading { target_B: Vec3::zero(), gain: 0.1, start: 10.0, stop: 2.0, active: false }
+pub(crate) fn desaturation() -> Desaturation<f64> {
+    Desaturation { target_B: Vec3::zero(), gain: 0.1, start: 10.0, stop: 2.0, active: false }
 }
 
 /// Torque and force wanted of a base that stands still, its centre of mass beside the origin.
-pub(crate) fn needs(torque: [f64; 3], force: [f64; 3]) -> Needs<f64> {
-    Needs {
+pub(crate) fn demand(torque: [f64; 3], force: [f64; 3]) -> Demand<f64> {
+    Demand {
         wanted: SpatialForce::new(Vec3::from_array(torque), Vec3::from_array(force)),
         w_NB_B: Vec3::zero(),
         p_BScm_B: vec3(0.13, -0.21, 0.08),
@@ -104,7 +104,7 @@ pub(crate) fn needs(torque: [f64; 3], force: [f64; 3]) -> Needs<f64> {
 
 /// Steering and what it steers.
 pub(crate) struct Bench {
-    pub(crate) steering: Steering<f64>,
+    pub(crate) allocator: Allocator<f64>,
     pub(crate) actuators: Actuators<f64>,
     pub(crate) readings: ActuatorReadings<f64>,
     /// What a bearing takes of its motor's torque (N·m).
@@ -113,19 +113,19 @@ pub(crate) struct Bench {
     pub(crate) servo: f64,
     /// A gimbal that does not move, whatever it is told.
     pub(crate) stuck: Option<usize>,
-    pub(crate) last: Steered<f64>,
+    pub(crate) last: Allocation<f64>,
 }
 
 impl Bench {
-    pub(crate) fn new(setup: &SteeringSetup<f64>) -> Self {
+    pub(crate) fn new(setup: &AllocationSetup<f64>) -> Self {
         Self {
-            steering: Steering::new(setup),
+            allocator: Allocator::new(setup),
             actuators: setup.actuators,
             readings: ActuatorReadings::default(),
             friction: [0.0; WHEELS],
             servo: f64::INFINITY,
             stuck: None,
-            last: Steered::nothing(),
+            last: Allocation::nothing(),
         }
     }
     /// Momentum inside, base axes (N·m·s).
@@ -135,13 +135,14 @@ impl Bench {
     }
     /// One period; the mean torque (N·m) and force (N) that the bodies feel of it, about the centre
     /// of mass: what the momentum inside loses, its gyroscopic torque, and the pulses.
-    pub(crate) fn step(&mut self, needs: &Needs<f64>) -> SpatialForce<f64> {
-        self.last = self.steering.steer(needs, &self.readings);
+    pub(crate) fn step(&mut self, demand: &Demand<f64>) -> SpatialForce<f64> {
+        self.last = self.allocator.allocate(demand, &self.readings);
         let before = self.stored();
-        self.obey(needs.period);
-        let change = (self.stored() - before) * (1.0 / needs.period);
-        let inside = -change - needs.w_NB_B.cross(before);
-        pulses(&self.actuators, &self.last.command, needs) + SpatialForce::new(inside, Vec3::zero())
+        self.obey(demand.period);
+        let change = (self.stored() - before) * (1.0 / demand.period);
+        let inside = -change - demand.w_NB_B.cross(before);
+        pulses(&self.actuators, &self.last.command, demand)
+            + SpatialForce::new(inside, Vec3::zero())
     }
     fn obey(&mut self, period: f64) {
         let (told, readings) = (&self.last.command, &mut self.readings);
@@ -164,17 +165,17 @@ impl Bench {
 pub(crate) fn pulses(
     actuators: &Actuators<f64>,
     told: &ActuatorCommand<f64>,
-    needs: &Needs<f64>,
+    demand: &Demand<f64>,
 ) -> SpatialForce<f64> {
     let each = actuators.thrusters.iter().zip(told.thruster_on);
     let (mut about_origin, mut force) = (Vec3::zero(), Vec3::zero());
     for (thruster, on) in each {
-        let push = thruster.direction_B * (thruster.force * on / needs.period);
+        let push = thruster.direction_B * (thruster.force * on / demand.period);
         force += push;
         about_origin += thruster.position_B.cross(push);
     }
     // Moved from the base's origin to the centre of mass as a whole.
-    SpatialForce::new(about_origin - needs.p_BScm_B.cross(force), force)
+    SpatialForce::new(about_origin - demand.p_BScm_B.cross(force), force)
 }
 
 /// What the CMGs' momentum changes by at these gimbal rates, by differences (N·m).

@@ -9,15 +9,15 @@ mod arms;
 #[allow(dead_code, reason = "the dynamics asks more of the same trees")]
 mod random_robot;
 
+mod allocator;
+mod allocator_limits;
 mod bench;
 mod cmgs;
+mod desaturation;
 #[path = "../../../mission/tests/figures/mod.rs"]
 mod figures;
-mod owed;
-mod posture_relief;
+mod momentum_error;
 mod pulse_modulation;
-mod steer;
-mod steer_limits;
 mod thrusters;
-mod unloading;
+mod unload_by_posture;
 mod wheels;

@@ -100,7 +100,7 @@ pub(super) fn least_norm<T: Scalar, const N: usize>(
     if all_finite(&x) { x } else { [T::zero(); N] }
 }
 
-/// Whether none is infinite or no number.
+/// Whether all are finite.
 pub(super) fn all_finite<T: Scalar>(x: &[T]) -> bool {
     x.iter().all(|x| x.is_finite())
 }

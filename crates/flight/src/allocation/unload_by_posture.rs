@@ -23,7 +23,7 @@ pub enum ToolTask {
 
 /// How the joints may be used.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ReliefUse<T, const J: usize> {
+pub struct PostureUnloadingUse<T, const J: usize> {
     /// What of the tool must stay.
     pub task: ToolTask,
     /// Rate at which what can be lowered should fade (1/s).
@@ -34,7 +34,7 @@ pub struct ReliefUse<T, const J: usize> {
 
 /// A motion that lowers what the base must store.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Relief<T, const J: usize> {
+pub struct PostureUnloading<T, const J: usize> {
     /// Joint rates (rad/s or m/s); they do not turn the base.
     pub qdot: [T; J],
     /// What the base must store per second now, inertial axes (N·m).
@@ -48,7 +48,7 @@ pub struct Relief<T, const J: usize> {
 /// Why no motion of the joints lowers what the base must store.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub enum NoRelief<T> {
+pub enum NoPostureUnloading<T> {
     /// The tool feels no force; a torque asks the same of the base in any posture.
     NoForce {
         /// What the base must store per second (N·m).
@@ -87,7 +87,7 @@ pub enum NoRelief<T> {
     },
 }
 
-impl<T: Scalar> fmt::Display for NoRelief<T> {
+impl<T: Scalar> fmt::Display for NoPostureUnloading<T> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let demand = match *self {
             Self::NoForce { demand } => {
@@ -124,7 +124,7 @@ impl<T: Scalar> fmt::Display for NoRelief<T> {
         write!(f, "closed: a second arm or a grapple takes the reaction")
     }
 }
-impl<T: Scalar> core::error::Error for NoRelief<T> {}
+impl<T: Scalar> core::error::Error for NoPostureUnloading<T> {}
 
 /// Momentum that the base must store per second while a wrench acts on the tool, arm and attitude
 /// held (N·m, inertial axes): `(p_E - p_cm) × f + τ`, with the wrench at the tool's origin.
@@ -139,7 +139,7 @@ pub fn momentum_rate<T: Scalar, const J: usize>(
     F_E_N.about(p_NScm_N - k.pose(tool).translation).torque
 }
 
-/// Rates slower than this share of what is asked for are not worth the motion.
+/// Rates below this share of the wanted ones are not worth the motion.
 const WORTH: f64 = 1e-3;
 
 /// Joint rates that bring the line of a lasting force on the tool closer to the centre of mass and do
@@ -149,17 +149,17 @@ const WORTH: f64 = 1e-3;
 /// obstacles are the caller's.
 ///
 /// # Errors
-/// [`NoRelief`]: why there is no such motion.
+/// [`NoPostureUnloading`]: why there is no such motion.
 ///
 /// # Source
 /// The reaction null space of [`Nenchev1992`](wrasse_spatial::references::Nenchev1992), with the
 /// tool's conditions added.
-pub fn posture_relief<T: Scalar, const J: usize>(
+pub fn unload_by_posture<T: Scalar, const J: usize>(
     k: &Kinematics<'_, T, J>,
     tool: &Frame<T>,
     F_E_N: &SpatialForce<T>,
-    joints: &ReliefUse<T, J>,
-) -> Result<Relief<T, J>, NoRelief<T>> {
+    joints: &PostureUnloadingUse<T, J>,
+) -> Result<PostureUnloading<T, J>, NoPostureUnloading<T>> {
     let M = base_rows(k);
     let J_held = attitude_held_jacobian(&jacobian(k, tool), &M, &k.state.X_NB.rotation).columns();
     let conditions = held(&angular_momentum_per_rate(&M), &J_held, joints.task);
@@ -168,33 +168,38 @@ pub fn posture_relief<T: Scalar, const J: usize>(
     let (force, demand) = (F_E_N.force, demand_N.norm());
     let square = force.dot(force);
     if square <= T::zero() {
-        return Err(NoRelief::NoForce { demand });
+        return Err(NoPostureUnloading::NoForce { demand });
     }
     let along_N = force * (demand_N.dot(force) / square);
     let across_N = demand_N - along_N;
     let lever = across_N.norm() / square.sqrt();
     let distance = (k.pose(tool).translation - k.centre_of_mass().1).norm();
     if lever <= (distance + demand / square.sqrt()) * T::epsilon() * T::from_f64(1e3) {
-        return Err(NoRelief::AlreadyLeast { demand });
+        return Err(NoPostureUnloading::AlreadyLeast { demand });
     }
     let (count, held) = (k.robot.joint_count(), conditions.count());
     let freedom = count.saturating_sub(held);
     match joints.task {
         _ if freedom == 0 => {
-            return Err(NoRelief::NoFreedom { joints: count, conditions: held, demand });
+            return Err(NoPostureUnloading::NoFreedom { joints: count, conditions: held, demand });
         }
         ToolTask::Position | ToolTask::Pose => {
-            return Err(NoRelief::LeverHeld { freedom, lever, demand });
+            return Err(NoPostureUnloading::LeverHeld { freedom, lever, demand });
         }
         ToolTask::Free | ToolTask::Orientation => {}
     }
     // D · (v × f) = v · (f × D): how each joint raises half the square of the demand.
     let uphill = J_held.map(|V| V.linear.dot(force.cross(across_N)));
     let qdot = downhill(&conditions.across(&uphill), &uphill, across_N.dot(across_N), joints)
-        .ok_or(NoRelief::NotFromHere { freedom, demand })?;
+        .ok_or(NoPostureUnloading::NotFromHere { freedom, demand })?;
     let moved = J_held.iter().zip(&qdot);
     let V_N = moved.fold(SpatialVelocity::zero(), |sum, (V, &rate)| sum + *V * rate);
-    Ok(Relief { qdot, demand_N, demand_rate_N: V_N.linear.cross(force), least: along_N.norm() })
+    Ok(PostureUnloading {
+        qdot,
+        demand_N,
+        demand_rate_N: V_N.linear.cross(force),
+        least: along_N.norm(),
+    })
 }
 
 /// Base not turned, and what of the tool must stay.
@@ -224,7 +229,7 @@ fn downhill<T: Scalar, const J: usize>(
     allowed: &[T; J],
     uphill: &[T; J],
     square: T,
-    joints: &ReliefUse<T, J>,
+    joints: &PostureUnloadingUse<T, J>,
 ) -> Option<[T; J]> {
     let sum = |of: &[T; J]| of.iter().fold(T::zero(), |sum, &x| sum + x * x);
     let (slope, whole) = (sum(allowed), sum(uphill));

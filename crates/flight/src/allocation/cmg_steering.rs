@@ -1,6 +1,6 @@
 //! CMG steering: which gimbal turns how fast.
 
-use super::Allocation;
+use super::GroupAllocation;
 use super::cmg_null_motion::null_motion;
 use super::span::{all_finite, gram, least_norm, share_that_fits, sum};
 use wrasse_hardware::{CMGS, ControlMomentGyro};
@@ -57,7 +57,7 @@ impl<T: Scalar> CmgLaw<T> {
         };
         let (sin, cos) = (waves.frequency * time).sin_cos();
         let within = sin.atan2(cos) / waves.frequency;
-        // Waves that stand still need no clock; one that is no number is set again.
+        // Waves that stand still need no clock; one that is NaN is set again.
         if within.is_finite() { within } else { T::zero() }
     }
 }
@@ -86,7 +86,7 @@ pub fn cmg_rates<T: Scalar>(
     wanted_B: Vec3<T>,
     angles: &[T; CMGS],
     time: T,
-) -> Allocation<T, CMGS> {
+) -> GroupAllocation<T, CMGS> {
     let finite = all_finite(&wanted_B.to_array());
     let used = used_cmgs(cmgs, usable.map(|usable| usable && finite), angles);
     let mean = mean_momentum(cmgs, used);
@@ -101,7 +101,7 @@ pub fn cmg_rates<T: Scalar>(
     let part = share_that_fits(&rates, &null, &upper.map(|rate| -rate), &upper);
     // Round-off must not push a limit.
     let values = core::array::from_fn(|k| (rates[k] + null[k] * part).clamp_to(upper[k]));
-    Allocation { values, missing_B: wanted_B - sum(&axes, &values) * mean }
+    GroupAllocation { values, missing_B: wanted_B - sum(&axes, &values) * mean }
 }
 
 /// How far the CMGs are from a singularity: `det A Aᵀ` for rotors of mean momentum one (–). Zero: in

@@ -4,7 +4,7 @@ use crate::figures::Page;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
-use wrasse_flight::steering::{
+use wrasse_flight::allocation::{
     CmgLaw, CmgSharing, Damping, Waves, cmg_rates, cmg_singularity, preferred_angles,
 };
 use wrasse_hardware::{CMGS, ControlMomentGyro};

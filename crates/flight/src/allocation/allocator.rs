@@ -1,7 +1,7 @@
-//! All groups together: who takes which part of the wanted torque and force.
+//! Control allocation over all groups: which part of the demanded torque and force each takes.
 
-use crate::steering::{
-    CmgLaw, Modulation, Modulator, Selection, Unloading, WheelLaw, WrenchAxes, cmg_rates,
+use crate::allocation::{
+    CmgLaw, Desaturation, Modulation, Modulator, Selection, WheelLaw, WrenchAxes, cmg_rates,
     cmg_singularity, thruster_duties, wheel_torques,
 };
 use wrasse_hardware::{ActuatorCommand, ActuatorReadings, Actuators, CMGS, THRUSTERS, WHEELS};
@@ -18,9 +18,9 @@ pub enum Unit {
     Thruster(usize),
 }
 
-/// How the actuators are steered.
+/// How torque and force are allocated to the actuators.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SteeringSetup<T> {
+pub struct AllocationSetup<T> {
     /// What there is.
     pub actuators: Actuators<T>,
     /// How torque is shared among the wheels.
@@ -32,13 +32,13 @@ pub struct SteeringSetup<T> {
     /// Whether a force counts that thrusters cannot give, or cannot help giving; if not, the base goes
     /// where it is pushed.
     pub holds_position: bool,
-    /// When the thrusters empty wheels and CMGs; `None`: never.
-    pub unloading: Option<Unloading<T>>,
+    /// When the thrusters desaturate wheels and CMGs; `None`: never.
+    pub desaturation: Option<Desaturation<T>>,
 }
 
 /// What is needed over the coming period.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Needs<T> {
+pub struct Demand<T> {
     /// Torque (N·m) and force (N) on the bodies, about the system's centre of mass, base axes.
     pub wanted: SpatialForce<T>,
     /// Rate of the base, base axes (rad/s).
@@ -49,9 +49,9 @@ pub struct Needs<T> {
     pub period: T,
 }
 
-/// What the steering could do of what was wanted.
+/// What the actuators can give of the demand.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SteeringReport<T> {
+pub struct AllocationReport<T> {
     /// What was wanted of the actuators, base axes (N·m, N).
     pub wanted: SpatialForce<T>,
     /// What of it no actuator could give (N·m, N).
@@ -61,34 +61,34 @@ pub struct SteeringReport<T> {
     /// Distance of the CMGs from a singular setting, det(A Aᵀ) for unit momenta (–); one without
     /// CMGs.
     pub singularity: T,
-    /// Whether the thrusters are emptying wheels and CMGs.
-    pub unloading: bool,
+    /// Whether the thrusters are desaturating wheels and CMGs.
+    pub desaturation: bool,
 }
 
-/// What the actuators are told, and what that leaves open.
+/// Commands of the actuators, and what they leave open.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Steered<T> {
-    /// What the actuators are told.
+pub struct Allocation<T> {
+    /// Commands of the actuators.
     pub command: ActuatorCommand<T>,
     /// What was wanted and what is missing.
-    pub report: SteeringReport<T>,
+    pub report: AllocationReport<T>,
     /// Torque that the bodies will feel on average over the period, with the servos as slow as they
     /// are, base axes (N·m).
     pub expected_B: Vec3<T>,
 }
 
-impl<T: Scalar> Steered<T> {
-    /// Nothing is asked and nothing is told.
+impl<T: Scalar> Allocation<T> {
+    /// No demand and no command.
     pub fn nothing() -> Self {
         let none = SpatialForce::zero();
         Self {
             command: ActuatorCommand::default(),
-            report: SteeringReport {
+            report: AllocationReport {
                 wanted: none,
                 missing: none,
                 stored_B: Vec3::zero(),
                 singularity: T::one(),
-                unloading: false,
+                desaturation: false,
             },
             expected_B: Vec3::zero(),
         }
@@ -97,8 +97,8 @@ impl<T: Scalar> Steered<T> {
 
 /// Steering, with what it remembers from period to period.
 #[derive(Debug, Clone, Copy)]
-pub struct Steering<T> {
-    setup: SteeringSetup<T>,
+pub struct Allocator<T> {
+    setup: AllocationSetup<T>,
     usable_wheels: [bool; WHEELS],
     usable_cmgs: [bool; CMGS],
     usable_thrusters: [bool; THRUSTERS],
@@ -108,19 +108,19 @@ pub struct Steering<T> {
     /// What wheels and CMGs stored when they were last read (N·m·s), and the change that was
     /// due over the period (N·m·s), base axes.
     before: Option<(Vec3<T>, Vec3<T>)>,
-    /// What they were asked for and have not yet given (N·m·s).
-    owed_B: Vec3<T>,
-    /// Speeds and angles as they were last heard: a unit that says no number may be heard again.
-    heard: ActuatorReadings<T>,
+    /// Integral of the torque that was commanded and not given (N·m·s).
+    momentum_error_B: Vec3<T>,
+    /// Last valid speeds and angles: a unit whose reading is NaN may recover.
+    last_valid: ActuatorReadings<T>,
 }
 
-/// How fast wheels and CMGs are asked for what they owe (1/s): slower than their servos answer. In
-/// periods that are longer than this takes: all of it in one, for more would come back larger.
-const CATCH_UP: f64 = 10.0;
+/// Gain on the momentum error (1/s): slower than the servos answer. Periods longer than its time
+/// constant take the whole error in one: with more the loop would be unstable.
+const INTEGRAL_GAIN: f64 = 10.0;
 
-impl<T: Scalar> Steering<T> {
+impl<T: Scalar> Allocator<T> {
     /// Steering that has all units.
-    pub fn new(setup: &SteeringSetup<T>) -> Self {
+    pub fn new(setup: &AllocationSetup<T>) -> Self {
         Self {
             setup: *setup,
             usable_wheels: [true; WHEELS],
@@ -129,29 +129,28 @@ impl<T: Scalar> Steering<T> {
             modulators: [Modulator::default(); THRUSTERS],
             time: T::zero(),
             before: None,
-            owed_B: Vec3::zero(),
-            heard: ActuatorReadings::default(),
+            momentum_error_B: Vec3::zero(),
+            last_valid: ActuatorReadings::default(),
         }
     }
 
-    /// Nothing is steered until the next call: what happens meanwhile is owed by nobody, and no pulse
-    /// goes on.
-    pub fn rest(&mut self) {
+    /// Nothing is allocated until the next call: the integral is cleared, and no pulse goes on.
+    pub fn reset(&mut self) {
         self.before = None;
-        self.owed_B = Vec3::zero();
+        self.momentum_error_B = Vec3::zero();
         self.modulators = [Modulator::default(); THRUSTERS];
     }
 
-    /// Nothing feeds the thrusters any more: no pulse goes on, and nothing is emptied.
-    fn run_dry(&mut self) {
+    /// The tank is empty: no pulse goes on, and desaturation ends.
+    fn stop_thrusters(&mut self) {
         self.modulators = [Modulator::default(); THRUSTERS];
-        if let Some(unloading) = &mut self.setup.unloading {
-            unloading.active = false;
+        if let Some(desaturation) = &mut self.setup.desaturation {
+            desaturation.active = false;
         }
     }
 
-    /// Do without a unit from now on.
-    pub fn isolate(&mut self, unit: Unit) {
+    /// Disable a unit from now on: its commands are zero.
+    pub fn disable(&mut self, unit: Unit) {
         let (flags, i): (&mut [bool], usize) = match unit {
             Unit::Wheel(i) => (&mut self.usable_wheels, i),
             Unit::Cmg(i) => (&mut self.usable_cmgs, i),
@@ -162,32 +161,37 @@ impl<T: Scalar> Steering<T> {
         }
     }
 
-    /// What the actuators are told for the coming period.
+    /// Commands of the actuators for the coming period.
     ///
     /// CMGs come first, then wheels. Thrusters give the force, what of the torque those cannot give,
-    /// and what empties them. They are pulsed: what they will really give over the period is taken off
-    /// before CMGs and wheels are told, so these smooth the pulses.
+    /// and the desaturation torque. They are pulsed: the mean torque that the pulses give over the period
+    /// is taken off before CMGs and wheels get their part, so these smooth the pulses.
     ///
-    /// A unit whose reading is no number is told nothing; its momentum counts as it was last heard.
-    pub fn steer(&mut self, needs: &Needs<T>, readings: &ActuatorReadings<T>) -> Steered<T> {
+    /// If a reading is NaN its unit gets a zero command, and its last valid reading is used.
+    pub fn allocate(
+        &mut self,
+        demand: &Demand<T>,
+        readings: &ActuatorReadings<T>,
+    ) -> Allocation<T> {
         let actuators = self.setup.actuators;
-        let mut steered = Steered::nothing();
+        let mut allocation = Allocation::nothing();
         let stored_B = self.stored(readings);
-        self.settle(stored_B);
-        let mut missing = needs.wanted;
-        let mut rest_B = needs.wanted.torque;
+        self.update_integral(stored_B);
+        let mut missing = demand.wanted;
+        let mut rest_B = demand.wanted.torque;
         let dry = actuators.tank.is_some() && readings.propellant <= T::zero();
         if dry {
-            self.run_dry();
+            self.stop_thrusters();
         } else if !actuators.thrusters.is_empty() {
-            let mut ask = needs.wanted;
+            let mut ask = demand.wanted;
             if self.stores_momentum() {
                 // No more than what turns inside can hold against: the bodies should not feel it.
-                let emptying_B = self.unloading_torque(stored_B);
-                let (_, _, missing_B) = self.inside(rest_B - emptying_B, needs, stored_B, readings);
-                ask.torque = emptying_B + missing_B;
+                let desaturation_B = self.desaturation_torque(stored_B);
+                let (_, _, missing_B) =
+                    self.internal_torque(rest_B - desaturation_B, demand, stored_B, readings);
+                ask.torque = desaturation_B + missing_B;
             }
-            let (p_BScm_B, thrusters) = (needs.p_BScm_B, &actuators.thrusters);
+            let (p_BScm_B, thrusters) = (demand.p_BScm_B, &actuators.thrusters);
             // Couples, as far as there are any, even where nobody asks for force: a base that is
             // pushed away takes the arm with it.
             let (holds, controlled) = (self.setup.holds_position, WrenchAxes::ALL);
@@ -195,22 +199,24 @@ impl<T: Scalar> Steering<T> {
                 thruster_duties(thrusters, &self.usable_thrusters, p_BScm_B, &ask, controlled);
             missing.torque = selection.missing.torque;
             missing.force = if holds { selection.missing.force } else { Vec3::zero() };
-            steered.expected_B = self.pulse(&selection, needs, &mut steered.command).torque;
-            rest_B -= steered.expected_B;
+            allocation.expected_B = self.pulse(&selection, demand, &mut allocation.command).torque;
+            rest_B -= allocation.expected_B;
         }
         if self.stores_momentum() {
-            let (wheels, cmgs, missing_B) = self.inside(rest_B, needs, stored_B, readings);
-            // What is missing is not owed: it was told.
-            let due_B = due(rest_B, needs, stored_B) + missing_B;
-            self.before = Some((stored_B, due_B * needs.period));
-            steered.command.wheel_torque = wheels;
-            steered.command.gimbal_rate = cmgs;
-            let change_B = self.change_inside(&steered.command, needs.period, readings);
-            steered.expected_B += due(change_B, needs, stored_B);
-            missing.torque = self.of_what_is_wanted(missing_B, needs.period);
+            let (wheels, cmgs, missing_B) =
+                self.internal_torque(rest_B, demand, stored_B, readings);
+            // Anti-windup: torque reported as missing is not integrated.
+            let due_B = required_momentum_rate(rest_B, demand, stored_B) + missing_B;
+            self.before = Some((stored_B, due_B * demand.period));
+            allocation.command.wheel_torque = wheels;
+            allocation.command.gimbal_rate = cmgs;
+            let change_B =
+                self.internal_momentum_rate(&allocation.command, demand.period, readings);
+            allocation.expected_B += required_momentum_rate(change_B, demand, stored_B);
+            missing.torque = self.missing_of_demand(missing_B, demand.period);
         }
-        steered.report = SteeringReport {
-            wanted: needs.wanted,
+        allocation.report = AllocationReport {
+            wanted: demand.wanted,
             missing,
             stored_B,
             singularity: if actuators.cmgs.is_empty() {
@@ -218,10 +224,10 @@ impl<T: Scalar> Steering<T> {
             } else {
                 cmg_singularity(&actuators.cmgs, &self.usable_cmgs, &readings.gimbal_angle)
             },
-            unloading: self.setup.unloading.is_some_and(|u| u.active),
+            desaturation: self.setup.desaturation.is_some_and(|u| u.active),
         };
-        self.time = self.setup.cmgs.within_a_wave(self.time + needs.period);
-        steered
+        self.time = self.setup.cmgs.within_a_wave(self.time + demand.period);
+        allocation
     }
 
     /// Whether anything can take up momentum.
@@ -230,38 +236,39 @@ impl<T: Scalar> Steering<T> {
         !(actuators.wheels.is_empty() && actuators.cmgs.is_empty())
     }
 
-    /// Momentum in wheels and CMGs by what was last heard of each, base axes (N·m·s).
+    /// Momentum in wheels and CMGs by the last valid reading of each, base axes (N·m·s).
     fn stored(&mut self, readings: &ActuatorReadings<T>) -> Vec3<T> {
-        let heard = &mut self.heard;
-        keep_numbers(&mut heard.wheel_speed, &readings.wheel_speed);
-        keep_numbers(&mut heard.gimbal_angle, &readings.gimbal_angle);
+        let last_valid = &mut self.last_valid;
+        keep_finite(&mut last_valid.wheel_speed, &readings.wheel_speed);
+        keep_finite(&mut last_valid.gimbal_angle, &readings.gimbal_angle);
         let actuators = &self.setup.actuators;
-        actuators.cmg_momentum(&heard.gimbal_angle) + actuators.wheel_momentum(&heard.wheel_speed)
+        actuators.cmg_momentum(&last_valid.gimbal_angle)
+            + actuators.wheel_momentum(&last_valid.wheel_speed)
     }
 
-    /// Book what wheels and CMGs gave of what they were last asked for: friction, servos and motors
-    /// that are slower than the period, a gimbal that is stuck all leave something owing.
-    fn settle(&mut self, stored_B: Vec3<T>) {
+    /// Integrate the difference between the momentum change that was commanded and the one that the
+    /// readings show: friction, slow servos and motors, and stuck gimbals cause one.
+    fn update_integral(&mut self, stored_B: Vec3<T>) {
         let Some((before_B, due_B)) = self.before.take() else { return };
-        let owed_B = self.owed_B + (due_B - (stored_B - before_B));
-        // What was asked for may have been no number: such a period is not booked.
-        if owed_B.to_array().iter().all(|x| x.is_finite()) {
-            self.owed_B = owed_B;
+        let momentum_error_B = self.momentum_error_B + (due_B - (stored_B - before_B));
+        // The command may have been NaN: such a period is not integrated.
+        if momentum_error_B.to_array().iter().all(|x| x.is_finite()) {
+            self.momentum_error_B = momentum_error_B;
         }
     }
 
-    /// How fast what is owed is asked for (1/s).
-    fn catch_up(period: T) -> T {
-        T::from_f64(CATCH_UP).min(T::one() / period)
+    /// Gain on the momentum error (1/s).
+    fn integral_gain(period: T) -> T {
+        T::from_f64(INTEGRAL_GAIN).min(T::one() / period)
     }
 
-    /// What is missing of what is wanted now (N·m): what is owed comes after that.
-    fn of_what_is_wanted(&self, missing_B: Vec3<T>, period: T) -> Vec3<T> {
-        let without_debt_B = missing_B + self.owed_B * Self::catch_up(period);
-        if without_debt_B.dot(missing_B) <= T::zero() {
+    /// What is missing of the present demand (N·m): the momentum error comes after that.
+    fn missing_of_demand(&self, missing_B: Vec3<T>, period: T) -> Vec3<T> {
+        let without_error_B = missing_B + self.momentum_error_B * Self::integral_gain(period);
+        if without_error_B.dot(missing_B) <= T::zero() {
             Vec3::zero()
-        } else if without_debt_B.norm() < missing_B.norm() {
-            without_debt_B
+        } else if without_error_B.norm() < missing_B.norm() {
+            without_error_B
         } else {
             missing_B
         }
@@ -269,17 +276,17 @@ impl<T: Scalar> Steering<T> {
 
     /// Torque on the bodies by what turns inside them: motor torques of the wheels (N·m), gimbal rates
     /// (rad/s), and what of the torque they cannot give.
-    fn inside(
+    fn internal_torque(
         &self,
         torque_B: Vec3<T>,
-        needs: &Needs<T>,
+        demand: &Demand<T>,
         stored_B: Vec3<T>,
         readings: &ActuatorReadings<T>,
     ) -> ([T; WHEELS], [T; CMGS], Vec3<T>) {
         let setup = &self.setup;
         let Actuators { wheels, cmgs, .. } = &setup.actuators;
-        let mut left_B =
-            due(torque_B, needs, stored_B) + self.owed_B * Self::catch_up(needs.period);
+        let mut left_B = required_momentum_rate(torque_B, demand, stored_B)
+            + self.momentum_error_B * Self::integral_gain(demand.period);
         let mut rates = [T::zero(); CMGS];
         let mut torques = [T::zero(); WHEELS];
         if !cmgs.is_empty() {
@@ -289,7 +296,7 @@ impl<T: Scalar> Steering<T> {
         }
         if !wheels.is_empty() {
             let (usable, speeds) = (&self.usable_wheels, &readings.wheel_speed);
-            let (law, period) = (&setup.wheels, needs.period);
+            let (law, period) = (&setup.wheels, demand.period);
             let found = wheel_torques(wheels, usable, law, left_B, speeds, period);
             (torques, left_B) = (found.values, found.missing_B);
         }
@@ -298,7 +305,7 @@ impl<T: Scalar> Steering<T> {
 
     /// Mean change over a period (s) of the momentum inside that a command causes, with each gimbal as
     /// its servo turns it (N·m, base axes).
-    fn change_inside(
+    fn internal_momentum_rate(
         &self,
         command: &ActuatorCommand<T>,
         period: T,
@@ -312,18 +319,18 @@ impl<T: Scalar> Steering<T> {
         for (i, cmg) in cmgs.iter().enumerate() {
             let rate = cmg.mean_rate(readings.gimbal_rate[i], command.gimbal_rate[i], period);
             if rate.is_finite() {
-                let axis_B = cmg.torque_axis(self.heard.gimbal_angle[i]);
+                let axis_B = cmg.torque_axis(self.last_valid.gimbal_angle[i]);
                 change_B += axis_B * (cmg.momentum * rate);
             }
         }
         change_B
     }
 
-    /// Torque by which the thrusters empty what is stored (N·m, base axes).
-    fn unloading_torque(&mut self, stored_B: Vec3<T>) -> Vec3<T> {
-        match &mut self.setup.unloading {
+    /// Torque by which the thrusters desaturate wheels and CMGs (N·m, base axes).
+    fn desaturation_torque(&mut self, stored_B: Vec3<T>) -> Vec3<T> {
+        match &mut self.setup.desaturation {
             None => Vec3::zero(),
-            Some(unloading) => unloading.torque(stored_B),
+            Some(desaturation) => desaturation.torque(stored_B),
         }
     }
 
@@ -332,7 +339,7 @@ impl<T: Scalar> Steering<T> {
     fn pulse(
         &mut self,
         selection: &Selection<T>,
-        needs: &Needs<T>,
+        demand: &Demand<T>,
         command: &mut ActuatorCommand<T>,
     ) -> SpatialForce<T> {
         let mut given = SpatialForce::zero();
@@ -347,17 +354,17 @@ impl<T: Scalar> Steering<T> {
             let shortest = thruster.minimum_on_time;
             let law = &self.setup.modulation;
             let input = law.input_for(selection.duty[i]);
-            let on = modulator.on_time(law, shortest, input, needs.period);
+            let on = modulator.on_time(law, shortest, input, demand.period);
             command.thruster_on[i] = on;
-            let force = thruster.direction_B * (thruster.force * on / needs.period);
-            given += SpatialForce::new((thruster.position_B - needs.p_BScm_B).cross(force), force);
+            let force = thruster.direction_B * (thruster.force * on / demand.period);
+            given += SpatialForce::new((thruster.position_B - demand.p_BScm_B).cross(force), force);
         }
         given
     }
 }
 
 /// Take over what is a number.
-fn keep_numbers<T: Scalar>(last: &mut [T], now: &[T]) {
+fn keep_finite<T: Scalar>(last: &mut [T], now: &[T]) {
     for (last, &now) in last.iter_mut().zip(now).filter(|(_, now)| now.is_finite()) {
         *last = now;
     }
@@ -365,6 +372,10 @@ fn keep_numbers<T: Scalar>(last: &mut [T], now: &[T]) {
 
 /// Change of the momentum inside by which the bodies feel a torque (N·m, base axes). They feel
 /// `-ḣ - w × h` of the momentum h inside, so it is `ḣ = -τ - w × h`.
-fn due<T: Scalar>(torque_B: Vec3<T>, needs: &Needs<T>, stored_B: Vec3<T>) -> Vec3<T> {
-    -torque_B - needs.w_NB_B.cross(stored_B)
+fn required_momentum_rate<T: Scalar>(
+    torque_B: Vec3<T>,
+    demand: &Demand<T>,
+    stored_B: Vec3<T>,
+) -> Vec3<T> {
+    -torque_B - demand.w_NB_B.cross(stored_B)
 }

@@ -1,6 +1,6 @@
 //! Wheel allocation: which motor turns which wheel how hard.
 
-use super::Allocation;
+use super::GroupAllocation;
 use super::least_peak::least_peak;
 use super::span::{all_finite, least_norm, share_that_fits, sum};
 use wrasse_hardware::{ReactionWheel, WHEELS};
@@ -48,7 +48,7 @@ pub fn wheel_torques<T: Scalar>(
     wanted_B: Vec3<T>,
     speeds: &[T; WHEELS],
     period: T,
-) -> Allocation<T, WHEELS> {
+) -> GroupAllocation<T, WHEELS> {
     let wheel = |k: usize| wheels.get(k).copied().unwrap_or_default();
     let finite = all_finite(&wanted_B.to_array());
     let used =
@@ -67,7 +67,7 @@ pub fn wheel_torques<T: Scalar>(
         share * wheel(k).torque_limit
     });
     let given = core::array::from_fn(|k| wheel(k).axis_B * values[k]);
-    Allocation { values, missing_B: wanted_B - sum(&given, &[T::one(); WHEELS]) }
+    GroupAllocation { values, missing_B: wanted_B - sum(&given, &[T::one(); WHEELS]) }
 }
 
 /// Whether a wheel has what it takes to give torque.
@@ -150,7 +150,7 @@ fn share_bounds<T: Scalar>(
                 return T::zero();
             }
             let share = room * wheel.inertia / (wheel.torque_limit * period);
-            // Written so that what is no number bounds nothing.
+            // Written so that NaN bounds nothing.
             if share < T::one() { share.max(T::zero()) } else { T::one() }
         };
         bounds[0][k] = -share(wheel.speed_limit + speeds[k]);

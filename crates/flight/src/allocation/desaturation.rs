@@ -1,10 +1,10 @@
-//! Unloading: thrusters take from wheels and CMGs the momentum that they hold.
+//! Desaturation: thrusters take from wheels and CMGs the momentum that they hold.
 
 use wrasse_spatial::{Scalar, Vec3};
 
-/// When unloading starts and stops, and how fast it goes.
+/// When desaturation starts and stops, and how fast it goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Unloading<T> {
+pub struct Desaturation<T> {
     /// What wheels and CMGs should hold, base axes (N·m·s).
     pub target_B: Vec3<T>,
     /// Rate at which what is beyond the target fades (1/s).
@@ -17,15 +17,14 @@ pub struct Unloading<T> {
     pub active: bool,
 }
 
-impl<T: Scalar> Unloading<T> {
+impl<T: Scalar> Desaturation<T> {
     /// Torque that the thrusters should exert on the vehicle, base axes (N·m).
     ///
-    /// The attitude law must be told of it: wheels and CMGs give the opposite, and so lose what they
-    /// hold. `stored_B` is the momentum of wheels and CMGs against the base (N·m·s).
+    /// Wheels and CMGs must give the opposite, and so lose what they hold. `stored_B` is the momentum of wheels and CMGs against the base (N·m·s).
     pub fn torque(&mut self, stored_B: Vec3<T>) -> Vec3<T> {
         let beyond = stored_B - self.target_B;
         let size = beyond.norm();
-        // Something that is not a number is neither: nothing starts, and what goes on ends.
+        // NaN compares as neither: nothing starts, and what goes on ends.
         self.active = if self.active { size >= self.stop } else { size > self.start };
         if self.active { -(beyond * self.gain) } else { Vec3::zero() }
     }

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use wrasse_flight::steering::{Allocation, WheelLaw, WheelSharing, wheel_torques};
+use wrasse_flight::allocation::{GroupAllocation, WheelLaw, WheelSharing, wheel_torques};
 use wrasse_hardware::{ReactionWheel, WHEELS};
 use wrasse_spatial::{Mat3, Scalar, Sym3, Vec3, vec3};
 
@@ -385,7 +385,7 @@ fn single_precision_gives_the_same() {
     for sharing in BOTH {
         let law_narrow = WheelLaw { sharing, null_gain: 0.0_f32 };
         let wide = wheel_torques(&wheels, &ALL, &law(sharing), wanted, &STILL, PERIOD);
-        let told: Allocation<f32, WHEELS> =
+        let told: GroupAllocation<f32, WHEELS> =
             wheel_torques(&narrow, &ALL, &law_narrow, Vec3::from_f64(wanted), &[0.0; WHEELS], 0.01);
         for k in 0..WHEELS {
             let off = told.values[k].to_f64() - wide.values[k];

@@ -1,12 +1,12 @@
 //! All groups together: what is told and what is missing make up what was wanted.
 
 use crate::bench::{
-    Bench, PERIOD, actuators, cmg_torque, cmgs, needs, pulses, setup, size, thrusters, unloading,
-    wheels,
+    Bench, PERIOD, actuators, cmg_torque, cmgs, demand, desaturation, pulses, setup, size,
+    thrusters, wheels,
 };
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use wrasse_flight::steering::{Needs, Steered, Steering, SteeringSetup, Unit};
+use wrasse_flight::allocation::{Allocation, AllocationSetup, Allocator, Demand, Unit};
 use wrasse_hardware::{ActuatorReadings, Actuators, CMGS};
 use wrasse_spatial::{SpatialForce, Vec3, vec3};
 
@@ -35,9 +35,9 @@ fn readings() -> impl Strategy<Value = ActuatorReadings<f64>> {
 }
 
 /// Torque and force wanted of a base that turns, its centre of mass anywhere in it.
-fn some_needs(torque: f64, force: f64) -> impl Strategy<Value = Needs<f64>> {
+fn some_needs(torque: f64, force: f64) -> impl Strategy<Value = Demand<f64>> {
     (vector(torque), vector(force), vector(0.02), vector(0.3)).prop_map(
-        |(torque, force, w_NB_B, p_BScm_B)| Needs {
+        |(torque, force, w_NB_B, p_BScm_B)| Demand {
             wanted: SpatialForce::new(torque, force),
             w_NB_B,
             p_BScm_B,
@@ -49,17 +49,17 @@ fn some_needs(torque: f64, force: f64) -> impl Strategy<Value = Needs<f64>> {
 /// What the bodies feel of a command at these readings: `-ḣ - w × h`, and the pulses.
 fn felt(
     actuators: &Actuators<f64>,
-    needs: &Needs<f64>,
+    demand: &Demand<f64>,
     readings: &ActuatorReadings<f64>,
-    told: &Steered<f64>,
+    told: &Allocation<f64>,
 ) -> SpatialForce<f64> {
     let motors = actuators.wheels.iter().zip(told.command.wheel_torque);
     let wheels = motors.fold(Vec3::zero(), |sum, (wheel, torque)| sum + wheel.axis_B * torque);
     let cmgs = cmg_torque(actuators, &readings.gimbal_angle, &told.command.gimbal_rate);
     let h = actuators.wheel_momentum(&readings.wheel_speed)
         + actuators.cmg_momentum(&readings.gimbal_angle);
-    let inside = -(wheels + cmgs) - needs.w_NB_B.cross(h);
-    pulses(actuators, &told.command, needs) + SpatialForce::new(inside, Vec3::zero())
+    let inside = -(wheels + cmgs) - demand.w_NB_B.cross(h);
+    pulses(actuators, &told.command, demand) + SpatialForce::new(inside, Vec3::zero())
 }
 
 proptest! {
@@ -69,19 +69,19 @@ proptest! {
     /// differences. Measured 1.2e-8 N·m off with CMGs, 1.8e-15 without.
     #[test]
     fn what_is_felt_and_what_is_missing_is_what_was_wanted(
-        needs in some_needs(1.0, 10.0), size_of in 0.01..10.0_f64, readings in readings()
+        demand in some_needs(1.0, 10.0), size_of in 0.01..10.0_f64, readings in readings()
     ) {
-        let needs = Needs { wanted: needs.wanted * size_of, ..needs };
+        let demand = Demand { wanted: demand.wanted * size_of, ..demand };
         for (wheels, cmgs, off_by) in
             [(wheels(0.2), vec![], 1e-13), (vec![], cmgs(), 1e-7), (wheels(0.2), cmgs(), 1e-7)]
         {
             for thrusters in [vec![], thrusters(22.0)] {
                 let all = actuators(&wheels, &cmgs, &thrusters);
-                let told = Steering::new(&setup(&all)).steer(&needs, &readings);
-                let sum = felt(&all, &needs, &readings, &told).torque + told.report.missing.torque;
-                let off = size(sum - needs.wanted.torque);
-                prop_assert!(off < off_by, "{off:e} N·m of {:?}", needs.wanted.torque);
-                prop_assert_eq!(told.report.wanted, needs.wanted);
+                let told = Allocator::new(&setup(&all)).allocate(&demand, &readings);
+                let sum = felt(&all, &demand, &readings, &told).torque + told.report.missing.torque;
+                let off = size(sum - demand.wanted.torque);
+                prop_assert!(off < off_by, "{off:e} N·m of {:?}", demand.wanted.torque);
+                prop_assert_eq!(told.report.wanted, demand.wanted);
             }
         }
     }
@@ -92,20 +92,20 @@ proptest! {
 /// 1.4e-11 N·m off with CMGs, whose torque is by differences.
 #[test]
 fn small_torques_are_given_whole_on_a_turning_base() {
-    let mut needs = needs([0.05, -0.03, 0.06], [0.0; 3]);
-    needs.w_NB_B = vec3(0.002, -0.001, 0.0015);
+    let mut demand = demand([0.05, -0.03, 0.06], [0.0; 3]);
+    demand.w_NB_B = vec3(0.002, -0.001, 0.0015);
     let readings = ActuatorReadings {
         wheel_speed: [300.0, -100.0, 50.0, 20.0, 0.0, 0.0, 0.0, 0.0],
         gimbal_angle: [0.4, -0.2, 0.1, 0.5, 0.0, 0.0, 0.0, 0.0],
         ..ActuatorReadings::default()
     };
     for all in [actuators(&wheels(0.2), &[], &[]), actuators(&[], &cmgs(), &[])] {
-        let told = Steering::new(&setup(&all)).steer(&needs, &readings);
+        let told = Allocator::new(&setup(&all)).allocate(&demand, &readings);
         let missing = size(told.report.missing.torque);
         assert!(missing < 1e-14, "{missing:e} N·m missing");
-        let gyroscopic = size(needs.w_NB_B.cross(told.report.stored_B));
+        let gyroscopic = size(demand.w_NB_B.cross(told.report.stored_B));
         assert!(gyroscopic > 0.02, "the test looks at {gyroscopic} N·m");
-        let off = size(felt(&all, &needs, &readings, &told).torque - needs.wanted.torque);
+        let off = size(felt(&all, &demand, &readings, &told).torque - demand.wanted.torque);
         assert!(off < 1e-9, "{off:e} N·m off");
     }
 }
@@ -113,11 +113,11 @@ fn small_torques_are_given_whole_on_a_turning_base() {
 /// Ten times what wheels can give: what comes keeps its direction, the rest is reported.
 #[test]
 fn what_wheels_alone_cannot_give_is_reported() {
-    let needs = needs([2.0, -1.0, 3.0], [5.0, 0.0, 0.0]);
+    let demand = demand([2.0, -1.0, 3.0], [5.0, 0.0, 0.0]);
     let all = actuators(&wheels(0.2), &[], &[]);
-    let told = Steering::new(&setup(&all)).steer(&needs, &ActuatorReadings::default());
-    let given = needs.wanted.torque - told.report.missing.torque;
-    let across = size(given.cross(needs.wanted.torque));
+    let told = Allocator::new(&setup(&all)).allocate(&demand, &ActuatorReadings::default());
+    let given = demand.wanted.torque - told.report.missing.torque;
+    let across = size(given.cross(demand.wanted.torque));
     assert!(across < 1e-14 && given.norm() > 0.2 && given.norm() < 0.8, "{given:?}");
     assert_eq!(told.report.missing.force, vec3(5.0, 0.0, 0.0), "nothing gives force");
 }
@@ -126,15 +126,15 @@ fn what_wheels_alone_cannot_give_is_reported() {
 /// average to 0.0028 of full force: 12 thrusters of 22 N on levers of 1 m. Measured 0.034 N·m, 0.081 N.
 #[test]
 fn thrusters_alone_give_torque_and_force_on_average() {
-    let needs = needs([6.0, -4.0, 9.0], [12.0, 5.0, -7.0]);
+    let demand = demand([6.0, -4.0, 9.0], [12.0, 5.0, -7.0]);
     let mut bench = Bench::new(&setup(&actuators(&[], &[], &thrusters(22.0))));
     let mut mean = SpatialForce::zero();
     for _ in 0..10_000 {
-        mean += bench.step(&needs) * 1e-4;
+        mean += bench.step(&demand) * 1e-4;
         assert!(size(bench.last.report.missing.torque) < 1e-11, "nothing is missing");
         assert!(size(bench.last.report.missing.force) < 1e-11, "nothing is missing");
     }
-    let off = mean - needs.wanted;
+    let off = mean - demand.wanted;
     assert!(size(off.torque) < 0.3, "{off:?}");
     assert!(size(off.force) < 0.3, "{off:?}");
 }
@@ -143,16 +143,16 @@ fn thrusters_alone_give_torque_and_force_on_average() {
 /// 0.12 N·m off on average over 200 s.
 #[test]
 fn thrusters_that_do_not_hold_the_position_miss_no_force() {
-    let needs = needs([6.0, -4.0, 9.0], [0.0; 3]);
+    let demand = demand([6.0, -4.0, 9.0], [0.0; 3]);
     let all = actuators(&[], &[], &thrusters(22.0));
-    let only_torque = SteeringSetup { holds_position: false, ..setup(&all) };
+    let only_torque = AllocationSetup { holds_position: false, ..setup(&all) };
     let mut bench = Bench::new(&only_torque);
     let mut mean = SpatialForce::zero();
     for _ in 0..10_000 {
-        mean += bench.step(&needs) * 1e-4;
+        mean += bench.step(&demand) * 1e-4;
         assert_eq!(bench.last.report.missing.force, Vec3::zero());
     }
-    assert!(size(mean.torque - needs.wanted.torque) < 0.3, "{mean:?}");
+    assert!(size(mean.torque - demand.wanted.torque) < 0.3, "{mean:?}");
 }
 
 /// Thrusters of 2 N hold the position in pulses on levers of a metre, 0.2 m beside the centre of mass;
@@ -160,14 +160,14 @@ fn thrusters_that_do_not_hold_the_position_miss_no_force() {
 /// 0.0050 N·m off in a period, where the pulses give up to 3.5.
 #[test]
 fn cmgs_take_off_what_the_pulses_give() {
-    let needs = needs([1.0, -0.5, 0.7], [0.6, -0.3, 0.4]);
+    let demand = demand([1.0, -0.5, 0.7], [0.6, -0.3, 0.4]);
     let mut bench = Bench::new(&setup(&actuators(&[], &cmgs(), &thrusters(2.0))));
     let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
     for _ in 0..250 {
-        let felt = bench.step(&needs).torque;
-        let pulse = pulses(&bench.actuators, &bench.last.command, &needs).torque;
+        let felt = bench.step(&demand).torque;
+        let pulse = pulses(&bench.actuators, &bench.last.command, &demand).torque;
         largest = largest.max(size(pulse));
-        worst = worst.max(size(felt - needs.wanted.torque));
+        worst = worst.max(size(felt - demand.wanted.torque));
         assert!(size(bench.last.report.missing.torque) < 1e-12);
     }
     assert!(largest > 1.0, "pulses of {largest} N·m");
@@ -186,14 +186,15 @@ struct Emptied {
 
 fn emptied(torque_limit: f64, force: f64) -> Emptied {
     let all = actuators(&wheels(torque_limit), &[], &thrusters(force));
-    let unloading = Some(unloading());
-    let mut bench = Bench::new(&SteeringSetup { unloading, holds_position: false, ..setup(&all) });
+    let desaturation = Some(desaturation());
+    let mut bench =
+        Bench::new(&AllocationSetup { desaturation, holds_position: false, ..setup(&all) });
     bench.readings.wheel_speed = [160.0, 120.0, 60.0, 90.0, 0.0, 0.0, 0.0, 0.0];
-    let needs = needs([0.02, -0.01, 0.03], [0.0; 3]);
+    let demand = demand([0.02, -0.01, 0.03], [0.0; 3]);
     let (first, mut felt, mut duration) = (bench.stored().norm(), Vec3::zero(), 0.0);
     for _ in 0..2000 {
-        felt += (bench.step(&needs).torque - needs.wanted.torque) * (1.0 / 2000.0);
-        duration += if bench.last.report.unloading { PERIOD } else { 0.0 };
+        felt += (bench.step(&demand).torque - demand.wanted.torque) * (1.0 / 2000.0);
+        duration += if bench.last.report.desaturation { PERIOD } else { 0.0 };
     }
     Emptied { first, left: bench.stored().norm(), duration, felt: size(felt) }
 }
@@ -224,19 +225,19 @@ fn unloading_is_no_faster_than_the_wheels_can_hold_against() {
 /// momentum still counts.
 #[test]
 fn what_is_isolated_is_told_nothing_and_the_others_take_over() {
-    let needs = needs([0.05, -0.03, 0.06], [6.0, -3.0, 4.0]);
+    let demand = demand([0.05, -0.03, 0.06], [6.0, -3.0, 4.0]);
     let mut bench = Bench::new(&setup(&actuators(&wheels(0.2), &[], &thrusters(22.0))));
     let fires = |bench: &Bench| (0..24).find(|&i| bench.last.command.thruster_on[i] == PERIOD);
     while fires(&bench).is_none() {
-        bench.step(&needs);
+        bench.step(&demand);
     }
     let fired = fires(&bench).unwrap();
-    bench.steering.isolate(Unit::Wheel(1));
-    bench.steering.isolate(Unit::Thruster(fired));
-    bench.steering.isolate(Unit::Cmg(CMGS + 3));
+    bench.allocator.disable(Unit::Wheel(1));
+    bench.allocator.disable(Unit::Thruster(fired));
+    bench.allocator.disable(Unit::Cmg(CMGS + 3));
     for _ in 0..100 {
         let stored_B = bench.stored();
-        bench.step(&needs);
+        bench.step(&demand);
         let command = &bench.last.command;
         assert_eq!(command.thruster_on[fired], 0.0, "the pulse is cut");
         assert_eq!(command.wheel_torque[1], 0.0);
