@@ -268,7 +268,7 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
             PostureUnloadingUse { task, gain, rate_limit: context.setup.joints.rate_limit };
         let mut best = [T::zero(); J];
         match unload_by_posture(&k, &context.setup.assignment.tool, &F_N, &joints) {
-            Ok(relief) if left > approach * T::from_f64(6.0) => best = relief.qdot,
+            Ok(unloading) if left > approach * T::from_f64(6.0) => best = unloading.qdot,
             Ok(_) => {}
             Err(reason) => self.no_posture_unloading = Some(reason),
         }

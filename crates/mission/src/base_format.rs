@@ -206,9 +206,11 @@ pub(crate) struct FailureFile {
     pub(crate) kind: FailureKindFile,
     /// When.
     pub(crate) at_s: f64,
-    /// How long after that the flight computer is told to do without it; never, if not given.
+    /// How long after that it is reported to the flight computer, which disables the unit; never, if not
+    /// given.
     #[serde(default)]
-    pub(crate) told_after_s: Option<f64>,
+    #[schemars(extend("x-formerly" = ["told_after_s"]))]
+    pub(crate) reported_after_s: Option<f64>,
 }
 
 /// What the claim of a study says, where verdicts can be held against it.

@@ -137,7 +137,7 @@ pub(crate) struct Case {
     /// Imperfect sensors, if there are any.
     pub(crate) sensors: Option<Sensors<f64>>,
     /// Whether the tool has a force-torque sensor.
-    pub(crate) feels_wrench: bool,
+    pub(crate) measures_wrench: bool,
     pub(crate) failures: Vec<FailureCase>,
     pub(crate) wrenches: Vec<AppliedWrench>,
     pub(crate) seed: u64,

@@ -376,7 +376,8 @@ pub(crate) fn failures(
     for (i, f) in file.failure.iter().enumerate() {
         let path = |key| [Step::Key("failure"), Step::Index(i), Step::Key(key)];
         let at = r.not_negative(&path("at_s"), f.at_s);
-        let told_at = f.told_after_s.map(|after| at + r.not_negative(&path("told_after_s"), after));
+        let told_at =
+            f.reported_after_s.map(|after| at + r.not_negative(&path("reported_after_s"), after));
         let there = names.contains(&f.unit);
         if !there && r.knows_actuators {
             r.find(&path("unit"), "wheel, CMG or thruster", &f.unit, &names);

@@ -198,7 +198,7 @@ fn read_case(
         turning,
         equipment,
         sensors,
-        feels_wrench: file.control.feel_tool_wrench,
+        measures_wrench: file.control.measure_tool_wrench,
         failures,
         wrenches,
         seed: file.seed,

@@ -84,7 +84,7 @@ impl Flight<'_> {
             self.say(EventKind::Limit, text);
         }
         if let Some(reason) = command.no_posture_unloading {
-            let text = format!("the posture cannot relieve the base: {reason}");
+            let text = format!("the posture cannot unload the base: {reason}");
             self.tell_once(Passed::NoPostureUnloading, text);
         }
         if self.sensing.blinded {

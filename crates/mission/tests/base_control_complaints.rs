@@ -53,7 +53,7 @@ star_tracker = { boresight = [-1.0, 0.0, 0.0], noise_across_arcsec = 3.0, noise_
 unit = "g-2"
 kind = "stuck"
 at_s = 3.0
-told_after_s = 0.5
+reported_after_s = 0.5
 
 [[phase]]
 name = "hold"
@@ -193,8 +193,8 @@ fn a_unit_fails_in_the_way_of_its_kind() {
         &["\"stucked\"", "did you mean \"stuck\"?"],
     );
     assert_says("at_s = 3.0", "at_s = -3.0", &["`at_s` must not be below zero, found -3"]);
-    let words = ["`told_after_s` must not be below zero"];
-    assert_says("told_after_s = 0.5", "told_after_s = -0.5", &words);
+    let words = ["`reported_after_s` must not be below zero"];
+    assert_says("reported_after_s = 0.5", "reported_after_s = -0.5", &words);
 }
 
 #[test]
@@ -387,4 +387,17 @@ fn names_that_control_moment_gyros_had_are_answered_with_those_they_have() {
     let asked = "requirements = [\"gyros.rate_use.max <= 50 %\"]\n\n[initial]";
     let help = "gyros.rate_use.max was renamed: write cmgs.rate_use.max";
     assert_refused(&changed("[initial]", asked), "gyros.rate_use", &[help]);
+}
+
+#[test]
+fn keys_that_were_renamed_are_answered_with_their_new_names() {
+    let renamed = |old: &str, new: &str| format!("`{old}` was renamed: write `{new}`");
+    let help = renamed("told_after_s", "reported_after_s");
+    assert_says("reported_after_s", "told_after_s", &[&help]);
+    let help = renamed("feel_tool_wrench", "measure_tool_wrench");
+    assert_says("[control]", "[control]\nfeel_tool_wrench = true", &[&help]);
+    let phase = "[[phase]]\nname = \"lean\"\nrelieve = { duration_s = 9.0 }\n\n[[phase]]";
+    let text =
+        changed("[[phase]]", phase).replace("[control]", "[control]\nmeasure_tool_wrench = true");
+    assert_refused(&text, "relieve =", &[&renamed("relieve", "unload_by_posture")]);
 }

@@ -70,12 +70,12 @@ const WORDS: [&str; 37] = [
     "ä\u{301}",
     "1979-05-27",
     "'''",
-    "relieve = { duration_s = 0.03, keep = \"nothing\", gain_per_s = 0.1 }\n",
+    "unload_by_posture = { duration_s = 0.03, keep = \"nothing\", gain_per_s = 0.1 }\n",
     "actuators = \"ideal\"\n",
     "actuators = \"unlimited\"\n",
     "actuators = \"fitted\"\n",
     "sensing = \"fitted\"\n",
-    "feel_tool_wrench = true\n",
+    "measure_tool_wrench = true\n",
     "wheels = \"minimum-peak\"\n",
     "cmgs = \"singularity-robust\"\n",
     "position_hold = { bandwidth_rad_s = 0.5 }\n",
@@ -166,7 +166,7 @@ fn hurried(text: &str) -> String {
             ("from_s = ", "0.005"),
             ("ramp_s = ", "0.01"),
             ("at_s = ", "0.01"),
-            ("told_after_s = ", "0.01"),
+            ("reported_after_s = ", "0.01"),
         ] {
             let mut from = 0;
             while let Some(at) = line[from..].find(key).map(|at| from + at + key.len()) {

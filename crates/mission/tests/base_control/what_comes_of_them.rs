@@ -273,13 +273,13 @@ fn a_posture_that_gives_way_leaves_the_base_less_to_store_or_says_why_not() {
     about(stored("relieves, tool keeps its orientation"), 511.7, 0.02);
     let kept = case("posture-relief", "cannot relieve, tool keeps its place");
     about(stored("cannot relieve, tool keeps its place"), stored("stands still"), 1e-9);
-    let (time, text) = said(kept, "the posture cannot relieve the base");
+    let (time, text) = said(kept, "the posture cannot unload the base");
     assert!((4.0..4.1).contains(&time), "at once: {time} s");
     for words in ["the lever stays 1.512 m", "store 15.116 N·m·s every second", "load path"] {
         assert!(text.contains(words), "no `{words}` in {text}");
     }
     let turning = case("posture-relief", "relieves, tool keeps its orientation");
-    let (time, _) = said(turning, "the posture cannot relieve the base");
+    let (time, _) = said(turning, "the posture cannot unload the base");
     assert!((time - 9.68).abs() < 0.2, "{time} s");
 }
 
