@@ -35,12 +35,12 @@ pub(crate) fn tell(text: &str) {
     tell_as_it_is(&visible_lines(text));
 }
 
-/// A reader who has gone away is no error of ours.
+/// Print to standard error. A closed pipe is ignored.
 fn tell_as_it_is(text: &str) {
     let _ = writeln!(std::io::stderr(), "{}", text.trim_end());
 }
 
-/// Print to standard output. A reader who has gone away is no error of ours; a full disk ends the
+/// Print to standard output. A closed pipe is ignored; a full disk ends the
 /// program, for an answer that is cut short must not pass for a whole one.
 pub(crate) fn say(text: &str) {
     say_as_it_is(&visible_lines(text));

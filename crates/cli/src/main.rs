@@ -82,7 +82,7 @@ fn go(command: &Command) -> ExitCode {
 /// All requirements hold.
 pub(crate) const YES: ExitCode = ExitCode::SUCCESS;
 
-/// The answer is no: a requirement failed, a way cannot be gone.
+/// The answer is no: a requirement failed, a path is infeasible.
 pub(crate) fn no() -> ExitCode {
     ExitCode::from(1)
 }

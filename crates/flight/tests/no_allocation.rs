@@ -151,7 +151,7 @@ fn all_groups() -> AllocationSetup<f64> {
     }
 }
 
-/// More is wanted than there is, wheels and CMGs are emptied, a wheel is lost, a reading is no number.
+/// More is wanted than there is, wheels and CMGs are desaturated, a wheel is lost, a reading is NaN.
 #[test]
 fn steering_all_groups_allocates_nothing() {
     let mut allocator = Allocator::new(&all_groups());

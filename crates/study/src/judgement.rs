@@ -54,9 +54,9 @@ pub struct Judgement {
     pub fuel_in_place: Option<f64>,
 }
 
-/// Slower than this is never.
+/// Largest time-scaling factor that is tried (–).
 const SLOWEST: f64 = 1e4;
-/// Longer than this (s) is never.
+/// Longest time to saturation that is looked for (s).
 const LONGEST: f64 = 1e12;
 /// Halvings of the interval that holds the pace, and the time to saturation.
 const HALVINGS: usize = 40;
@@ -173,7 +173,7 @@ fn leaves_at_best(demand: &Demand, lasting: Option<Vec3<f64>>, able: &Capability
         let mut far = 1.0;
         while !over(far) {
             far *= 2.0;
-            // Numbers that are no numbers leave nothing.
+            // NaN never saturates.
             if far > LONGEST {
                 return None;
             }
@@ -282,7 +282,7 @@ fn pace(least: f64, fails: impl Fn(f64) -> bool) -> Option<f64> {
     let mut far = 2.0 * least;
     while fails(far) {
         far *= 2.0;
-        // Numbers that are no numbers get nowhere.
+        // NaN never passes.
         if far.is_nan() || far > SLOWEST {
             return None;
         }

@@ -139,7 +139,7 @@ fn thrusters_alone_give_torque_and_force_on_average() {
     assert!(size(off.force) < 0.3, "{off:?}");
 }
 
-/// Position is nobody's business: no force is missed, and the torque is given all the same. Measured
+/// Position is not controlled: no force is missed, and the torque is given all the same. Measured
 /// 0.12 N·m off on average over 200 s.
 #[test]
 fn thrusters_that_do_not_hold_the_position_miss_no_force() {

@@ -1,4 +1,4 @@
-//! Whatever sets, wants and readings there are: no command beyond limits, none that is no number.
+//! Whatever sets, wants and readings there are: no command beyond limits, none that is NaN.
 
 use crate::bench::{
     Bench, PERIOD, actuators, cmgs, demand, desaturation, setup, thrusters, wheels,

@@ -565,7 +565,7 @@ fn the_clock_of_the_waves_never_stalls() {
     // Each step rounds by up to 1.2e-7 s, half a wave in 1e6 steps: measured 2,500 waves.
     assert!((count - 2500).abs() <= 1, "{count}");
     assert!(most <= 2.0 + 1e-6, "half a wave: {most}");
-    // A law without waves has no clock, and what is no number does not stay.
+    // A law without waves has no clock, and NaN does not stay.
     let still = CmgLaw { sharing: CmgSharing::PseudoInverse, ..law };
     assert_eq!([still.within_a_wave(7.0), law.within_a_wave(f32::NAN)], [0.0, 0.0]);
 }

@@ -142,7 +142,7 @@ fn a_debt_is_paid_in_one_long_period_and_does_not_grow() {
     }
 }
 
-/// A wheel that is done without runs down by its friction: the others hold against it. Measured
+/// A disabled wheel runs down by its friction: the others compensate it. Measured
 /// 0.012 N·m at first, nothing after 3 s.
 #[test]
 fn an_isolated_wheel_that_runs_down_is_held_against() {
@@ -161,7 +161,7 @@ fn an_isolated_wheel_that_runs_down_is_held_against() {
     assert_eq!(bench.last.command.wheel_torque[2], 0.0);
 }
 
-/// A tachometer and a resolver that say no number for a while: their units are told nothing, the
+/// A tachometer and a resolver that read NaN for a while: their units get zero commands, the
 /// others give what is wanted. What nobody obeyed meanwhile is owed, and dies out: measured 1.6e-9 N·m
 /// off after 6 s.
 #[test]
@@ -192,7 +192,7 @@ fn a_reading_that_is_no_number_silences_its_unit_alone_and_for_no_longer() {
     assert!(off < 1e-5, "{off:e} N·m off");
 }
 
-/// What is wanted is no number for once: nothing is told in that period, and the next is as ever.
+/// The demand is NaN once: the commands of that period are zero, and the next is as ever.
 /// Measured 3e-17 N·m off.
 #[test]
 fn a_torque_that_is_no_number_is_not_remembered() {

@@ -36,7 +36,7 @@ fn every_state_is_bounded<const J: usize>() {
 }
 
 /// Anywhere in the travel, at its ends, in singular postures and next to them: rates within 0.2 rad/s,
-/// torques within 500 N·m, and no number that is none.
+/// torques within 500 N·m, and no NaN.
 #[test]
 fn every_state_of_one_arm_and_of_two_gives_bounded_commands() {
     assert_eq!(states::<7>().len(), STATES);

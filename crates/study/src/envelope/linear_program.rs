@@ -13,8 +13,7 @@ pub(crate) struct LinearProgram {
     pub(crate) most: Vec<f64>,
 }
 
-/// Steps after which the search is given up. Bland's rule does not cycle; this is for numbers that
-/// are no numbers.
+/// Steps after which the search is given up. Bland's rule does not cycle; this is for NaN.
 const STEPS: usize = 2000;
 
 /// Pivots and gains below this share of the largest coefficient are round-off.
