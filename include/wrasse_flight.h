@@ -227,7 +227,7 @@ typedef struct WrasseSensed {
 
 // Reference of the arm at the end of a period.
 typedef struct WrasseArmReference {
-  // One of `WRASSE_ASK_...`.
+  // One of `WRASSE_REFERENCE_...`.
   int32_t kind;
   // One of `WRASSE_AXES_...`; for the tool.
   int32_t axes;

@@ -10,8 +10,9 @@ use atlas_class::{BASE, LINKS, TOOL};
 use libfuzzer_sys::fuzz_target;
 use std::ptr::null_mut;
 use wrasse_flight_c::{
-    WRASSE_FLIGHT_WORDS, WRASSE_JOINTS, WrasseArmReference, WrasseComplaint, WrasseFlight, WrasseLaws,
-    WrasseSensed, WrasseStatus, WrasseControlOutput, wrasse_flight_period, wrasse_flight_set_up,
+    WRASSE_FLIGHT_WORDS, WRASSE_JOINTS, WrasseArmReference, WrasseComplaint, WrasseControlOutput,
+    WrasseFlight, WrasseLaws, WrasseSensed, WrasseStatus, wrasse_flight_period,
+    wrasse_flight_set_up,
 };
 
 /// Overwrite words of a plain struct: each change is a number of a word and its eight bytes.
@@ -79,8 +80,13 @@ fn asked() -> WrasseArmReference {
     }
 }
 
-fn fly(flight: &mut WrasseFlight, sensed: &WrasseSensed, asked: &WrasseArmReference) -> WrasseStatus {
-    let mut told = WrasseControlOutput { effort: [f64::NAN; WRASSE_JOINTS], ..WrasseControlOutput::default() };
+fn fly(
+    flight: &mut WrasseFlight,
+    sensed: &WrasseSensed,
+    asked: &WrasseArmReference,
+) -> WrasseStatus {
+    let mut told =
+        WrasseControlOutput { effort: [f64::NAN; WRASSE_JOINTS], ..WrasseControlOutput::default() };
     let mut complaint =
         WrasseComplaint { field: null_mut(), index: 0, found: 0.0, expected: null_mut() };
     let before = flight.memory;

@@ -49,7 +49,7 @@ pub struct WrasseSensed {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WrasseArmReference {
-    /// One of `WRASSE_ASK_...`.
+    /// One of `WRASSE_REFERENCE_...`.
     pub kind: i32,
     /// One of `WRASSE_AXES_...`; for the tool.
     pub axes: i32,

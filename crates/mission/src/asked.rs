@@ -12,7 +12,7 @@ use wrasse_vehicle::JOINTS;
 use wrasse_world::{BaseAttitude, World};
 
 /// What is asked of the joints' drives and of whatever turns the base.
-pub(crate) struct Asked {
+pub(crate) struct ActuatorDemand {
     /// Of each joint (N·m or N): what the law asks of a drive of torque; what it takes to move the
     /// others as they are moved.
     pub(crate) efforts: [f64; JOINTS],
@@ -22,7 +22,7 @@ pub(crate) struct Asked {
     pub(crate) torque_cut_B: Vec3<f64>,
 }
 
-impl Asked {
+impl ActuatorDemand {
     pub(crate) fn of(
         case: &Case,
         command: &Command<f64, JOINTS>,

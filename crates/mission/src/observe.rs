@@ -1,7 +1,7 @@
 //! What is seen of the truth after each control period.
 
 use crate::arm_shape::{reach_margin, smallest_singular_value};
-use crate::asked::{Asked, gimbal_motors, gimbal_rates, wheel_speeds};
+use crate::asked::{ActuatorDemand, gimbal_motors, gimbal_rates, wheel_speeds};
 use crate::mission::Case;
 use crate::quantity::FIXED_COUNT;
 use crate::read_base::Turning;
@@ -226,7 +226,7 @@ pub(crate) fn observe(
     };
     let shape = if needs.shape { shape(case, jacobian, &k, &tool) } else { (nan, nan) };
     let energy = if needs.energy { there(kinetic_energy(&k)) } else { nan };
-    let asked = Asked::of(case, command, world, &seen);
+    let asked = ActuatorDemand::of(case, command, world, &seen);
     let of_any = values(case, &seen, track, &asked, mounts, shape, energy);
     let motors = if needs.motors { motor_torque(case, world) } else { nan };
     let equipped = of_equipment(case, (command, track), &seen, &asked, estimate_error, motors);
@@ -291,7 +291,7 @@ fn of_equipment(
     case: &Case,
     (command, track): (&Command<f64, JOINTS>, &Track),
     seen: &Observation,
-    asked: &Asked,
+    asked: &ActuatorDemand,
     estimate_error: f64,
     motor_torque: f64,
 ) -> [f64; 8] {
@@ -341,7 +341,7 @@ fn values(
     case: &Case,
     seen: &Observation,
     track: &Track,
-    asked: &Asked,
+    asked: &ActuatorDemand,
     mounts: (f64, f64),
     shape: (f64, f64),
     energy: f64,

@@ -6,8 +6,8 @@ use core::array;
 use wrasse_dynamics::{Frame, Robot, State, kinematics};
 use wrasse_flight::trajectory::ToolMotion;
 use wrasse_flight::{
-    ArmLaw, ArmReference, Assignment, Axes, BaseControlSetup, Feedforward, JointUse, Measurement,
-    NavigationSetup, PeriodMemory, Setup, Task, ControlOutput, Tuning, control_period,
+    ArmLaw, ArmReference, Assignment, Axes, BaseControlSetup, ControlOutput, Feedforward, JointUse,
+    Measurement, NavigationSetup, PeriodMemory, Setup, Task, Tuning, control_period,
 };
 use wrasse_flight_c::{WrasseBody, WrasseFrame, WrasseLink, frame_from_table, robot_from_tables};
 use wrasse_hardware::JointLimits;
