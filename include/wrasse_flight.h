@@ -34,10 +34,10 @@
 // Only the position of the tool counts.
 #define WRASSE_TASK_POSITION 1
 
-// The attitude control is not told of the arm's motion.
+// The arm's motion is not fed forward to the attitude control.
 #define WRASSE_FEEDFORWARD_NONE 0
 
-// The attitude control is told the exact torque that the arm's motion takes.
+// The exact torque that the arm's motion takes is fed forward to the attitude control.
 #define WRASSE_FEEDFORWARD_EXACT 1
 
 // After the start the guidance integrates its own model.
@@ -47,16 +47,16 @@
 #define WRASSE_MEASURE_BASE 1
 
 // The tool follows a motion.
-#define WRASSE_ASK_TOOL 0
+#define WRASSE_REFERENCE_TOOL 0
 
 // The joints follow a motion.
-#define WRASSE_ASK_JOINTS 1
+#define WRASSE_REFERENCE_JOINTS 1
 
 // The joints stand still where they were sent last.
-#define WRASSE_ASK_STILL 2
+#define WRASSE_REFERENCE_STILL 2
 
 // Nothing is driven.
-#define WRASSE_ASK_COAST 3
+#define WRASSE_REFERENCE_COAST 3
 
 // The tool's motion is in inertial axes.
 #define WRASSE_AXES_INERTIAL 0
@@ -73,7 +73,7 @@ enum WrasseStatus
   : int32_t
 #endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
  {
-  // It did what it was asked.
+  // Success.
   WRASSE_OK = 0,
   // A pointer that must point to something is null.
   WRASSE_NULL_POINTER = 1,
@@ -81,7 +81,7 @@ enum WrasseStatus
   WRASSE_TOO_MANY_LINKS = 2,
   // A link is mounted on one that does not come before it.
   WRASSE_PARENT_AFTER_CHILD = 3,
-  // A number of the set-up, or of what is asked, is not finite or not within its bounds.
+  // A number of the set-up, or of the reference, is not finite or not within its bounds.
   WRASSE_BAD_NUMBER = 4,
   // A choice is none of its constants.
   WRASSE_UNKNOWN_CHOICE = 5,
@@ -89,9 +89,9 @@ enum WrasseStatus
   WRASSE_NOT_SET_UP = 6,
   // A reading of the sensors is not finite, or not within its bounds.
   WRASSE_BAD_READING = 7,
-  // What would be told is not finite, passes a limit, or makes a set-point jump.
+  // The output is not finite, passes a limit, or makes a set-point jump.
   WRASSE_BAD_RESULT = 8,
-  // What would be remembered is not finite.
+  // The memory would not be finite.
   WRASSE_BAD_MEMORY = 9,
 };
 #ifndef __cplusplus
@@ -102,8 +102,8 @@ typedef int32_t WrasseStatus;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
-// Memory of the flight code, given by the caller. What is in it is nobody's business; copying it
-// copies its state.
+// Memory of the flight code, given by the caller. Opaque; do not read or write. Copying it copies its
+// state.
 typedef struct WrasseFlight {
   // Not to be read or written.
   uint64_t memory[WRASSE_FLIGHT_WORDS];
@@ -219,15 +219,15 @@ typedef struct WrasseSensed {
   double joint_position[WRASSE_JOINTS];
   // Joint rates (rad/s or m/s), between -100 and 100.
   double joint_rate[WRASSE_JOINTS];
-  // 1 if a push at the tool is felt, 0 if not.
-  int32_t wrench_felt;
-  // That push at the tool's origin, tool axes: torque (N·m), then force (N), between -1e6 and 1e6.
+  // 1 if the wrench at the tool is measured, 0 if not.
+  int32_t wrench_measured;
+  // That wrench at the tool's origin, tool axes: torque (N·m), then force (N), between -1e6 and 1e6.
   double wrench[6];
 } WrasseSensed;
 
-// What is asked at the end of a period.
-typedef struct WrasseAsked {
-  // One of `WRASSE_ASK_...`.
+// Reference of the arm at the end of a period.
+typedef struct WrasseArmReference {
+  // One of `WRASSE_REFERENCE_...`.
   int32_t kind;
   // One of `WRASSE_AXES_...`; for the tool.
   int32_t axes;
@@ -251,10 +251,10 @@ typedef struct WrasseAsked {
   double joint_rate[WRASSE_JOINTS];
   // Their accelerations (rad/s² or m/s²), between -1e4 and 1e4.
   double joint_acceleration[WRASSE_JOINTS];
-} WrasseAsked;
+} WrasseArmReference;
 
-// What the actuators are told for the period.
-typedef struct WrasseTold {
+// Commands of the actuators for the period.
+typedef struct WrasseControlOutput {
   // Where each joint should be at its end (rad or m).
   double joint_position[WRASSE_JOINTS];
   // Rates there (rad/s or m/s).
@@ -267,7 +267,7 @@ typedef struct WrasseTold {
   double attitude_torque[3];
   // Force that is known to be needed against a push at the tool, base axes (N).
   double force_ahead[3];
-} WrasseTold;
+} WrasseControlOutput;
 
 #ifdef __cplusplus
 extern "C" {
@@ -286,22 +286,22 @@ WrasseStatus wrasse_flight_set_up(struct WrasseFlight *flight,
                                   const struct WrasseLaws *laws,
                                   struct WrasseComplaint *complaint);
 
-// One control period: what is sensed and asked goes in, what the actuators are told comes out. The
-// first period after the set-up takes everything from what is sensed.
+// One control period: measurements and reference in, commands of the actuators out. The first period
+// after the set-up takes everything from the measurements.
 //
-// Readings and what is asked are held against the bounds that stand at their fields; what would be told
-// and remembered must be finite. When the status is not `WRASSE_OK` the memory is as it was, to the
-// byte, so that later periods are those of a flight without this one; `told` has no torque and no
-// force, its rates and accelerations are zero, and its positions are those that were told last (zero
-// before the first period).
+// Measurements and reference are held against the bounds that stand at their fields; output and memory
+// must be finite. When the status is not `WRASSE_OK` the memory is as it was, to the
+// byte, so that later periods are those of a flight without this one; `output` has no torque and no
+// force, its rates and accelerations are zero, and its positions are those of the last accepted period
+// (zero before the first).
 //
 // # Safety
 // Each pointer is null or points to as much as its type says; `flight` to memory that
 // `wrasse_flight_set_up` wrote, or to zeros. They do not overlap.
 WrasseStatus wrasse_flight_period(struct WrasseFlight *flight,
                                   const struct WrasseSensed *sensed,
-                                  const struct WrasseAsked *asked,
-                                  struct WrasseTold *told,
+                                  const struct WrasseArmReference *reference,
+                                  struct WrasseControlOutput *output,
                                   struct WrasseComplaint *complaint);
 
 // What a status means, in English. Never null.

@@ -10,8 +10,9 @@ use atlas_class::{BASE, LINKS, TOOL};
 use libfuzzer_sys::fuzz_target;
 use std::ptr::null_mut;
 use wrasse_flight_c::{
-    WRASSE_FLIGHT_WORDS, WRASSE_JOINTS, WrasseAsked, WrasseComplaint, WrasseFlight, WrasseLaws,
-    WrasseSensed, WrasseStatus, WrasseTold, wrasse_flight_period, wrasse_flight_set_up,
+    WRASSE_FLIGHT_WORDS, WRASSE_JOINTS, WrasseArmReference, WrasseComplaint, WrasseControlOutput,
+    WrasseFlight, WrasseLaws, WrasseSensed, WrasseStatus, wrasse_flight_period,
+    wrasse_flight_set_up,
 };
 
 /// Overwrite words of a plain struct: each change is a number of a word and its eight bytes.
@@ -58,13 +59,13 @@ fn sensed() -> WrasseSensed {
         velocity: [0.0; 3],
         joint_position,
         joint_rate: [0.01; WRASSE_JOINTS],
-        wrench_felt: 0,
+        wrench_measured: 0,
         wrench: [0.0; 6],
     }
 }
 
-fn asked() -> WrasseAsked {
-    WrasseAsked {
+fn asked() -> WrasseArmReference {
+    WrasseArmReference {
         kind: 0,
         axes: 0,
         tool_position: [1.5, 0.4, 0.1],
@@ -79,8 +80,13 @@ fn asked() -> WrasseAsked {
     }
 }
 
-fn fly(flight: &mut WrasseFlight, sensed: &WrasseSensed, asked: &WrasseAsked) -> WrasseStatus {
-    let mut told = WrasseTold { effort: [f64::NAN; WRASSE_JOINTS], ..WrasseTold::default() };
+fn fly(
+    flight: &mut WrasseFlight,
+    sensed: &WrasseSensed,
+    asked: &WrasseArmReference,
+) -> WrasseStatus {
+    let mut told =
+        WrasseControlOutput { effort: [f64::NAN; WRASSE_JOINTS], ..WrasseControlOutput::default() };
     let mut complaint =
         WrasseComplaint { field: null_mut(), index: 0, found: 0.0, expected: null_mut() };
     let before = flight.memory;
@@ -118,7 +124,7 @@ fuzz_target!(|bytes: &[u8]| {
         return;
     }
     for k in 0..1 + counts[3] % 4 {
-        let (mut read, mut wish) = (sensed(), WrasseAsked { kind: i32::from(k), ..asked() });
+        let (mut read, mut wish) = (sensed(), WrasseArmReference { kind: i32::from(k), ..asked() });
         spoil(&mut read, &mut rest, 2);
         spoil(&mut wish, &mut rest, 2);
         fly(&mut flight, &read, &wish);

@@ -18,14 +18,14 @@ const TARGETS: [(&str, &[&str]); 6] = [
 const USAGE: &str = "usage: cargo xtask fuzz [--require] [--seconds N] [TARGET]";
 
 /// What is asked of the chore.
-struct Asked {
+struct Arguments {
     required: bool,
     seconds: u32,
     target: Option<String>,
 }
 
-fn asked(arguments: &[String]) -> Result<Asked, String> {
-    let mut asked = Asked { required: false, seconds: 15, target: None };
+fn asked(arguments: &[String]) -> Result<Arguments, String> {
+    let mut asked = Arguments { required: false, seconds: 15, target: None };
     let mut rest = arguments.iter();
     while let Some(argument) = rest.next() {
         match argument.as_str() {

@@ -4,6 +4,7 @@
 mod architecture;
 mod book;
 mod dependencies;
+mod names;
 mod printed_reactions;
 mod quotations;
 mod source_text;
@@ -14,7 +15,7 @@ use std::path::{Path, PathBuf};
 /// A rule: its name, and what it finds in the repository at a path.
 type Rule = (&'static str, fn(&Path) -> Vec<String>);
 
-const RULES: [Rule; 14] = [
+const RULES: [Rule; 15] = [
     ("the map is at most two pages and its paths exist", architecture::map),
     ("every crate has its paragraph in the map", architecture::crates_described),
     ("every external dependency has its reason in the map", architecture::dependency_reasons),
@@ -22,6 +23,7 @@ const RULES: [Rule; 14] = [
     ("the core rests on itself, libm and cpufeatures, without std", dependencies::core_alone),
     ("files are short and named for what they hold", source_text::files),
     ("no clocks, global randomness or marks of unfinished work", source_text::words),
+    ("names are the terms of the field", names::retired),
     ("elementary functions of the core come from one source", source_text::core_floats),
     ("every algorithm has its theory page, with all its heads", book::theory_pages),
     ("the tests that the book names exist", book::named_tests),

@@ -85,7 +85,7 @@ fn findings(file: &PathBuf, text: String) -> (Vec<Complaint>, Option<String>) {
 /// actuators; nothing for any other file.
 fn list(file: &std::path::Path, text: &str) -> Option<String> {
     const MODELS: [&str; 5] =
-        ["[[wheel]]", "[[gyro]]", "[[thruster]]", "[[rate_gyro]]", "[[star_tracker]]"];
+        ["[[wheel]]", "[[cmg]]", "[[thruster]]", "[[rate_gyro]]", "[[star_tracker]]"];
     let lines =
         || text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
     if !is_toml(file) || !lines().next()?.starts_with('[') {

@@ -1,4 +1,4 @@
-//! `wrasse hardware`: the catalogue of wheels, gyros, thrusters and sensors.
+//! `wrasse hardware`: the catalogue of wheels, CMGs, thrusters and sensors.
 
 use crate::YES;
 use crate::input::{Failure, say};
@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use wrasse_document::closest;
 use wrasse_vehicle::{Grade, HardwareEntry, Provenance, hardware};
 
-/// List the wheels, gyros, thrusters and sensors that come with wrasse.
+/// List the wheels, CMGs, thrusters and sensors that come with wrasse.
 ///
 /// A vehicle or mission file takes one by its name, and says where it is bolted on:
 ///

@@ -14,7 +14,7 @@ use wrasse_record::{summary_json, verdict_table, write_results};
 /// Fly a mission, judge its requirements, write the report.
 ///
 /// Writes report.html, telemetry.parquet and summary.json to out/NAME. Exit code 0: all requirements
-/// hold; 1: one does not, or the planning found that the way cannot be gone; 2: bad input, or a
+/// hold; 1: one does not, or the planning found that the path is infeasible; 2: bad input, or a
 /// number broke down.
 #[derive(Debug, Args)]
 pub(crate) struct Run {

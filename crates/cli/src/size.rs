@@ -26,7 +26,7 @@ pub(crate) struct Size {
     /// The study, or a mission.
     study: PathBuf,
     /// Weigh every unit of this kind that `wrasse hardware` lists, in a standard arrangement: four
-    /// wheels, four gyros in a pyramid, 24 thrusters at the corners of the bus.
+    /// wheels, four CMGs in a pyramid, 24 thrusters at the corners of the bus.
     #[arg(long, value_name = "KIND", value_delimiter = ',')]
     catalogue: Vec<Kind>,
     /// Folder for the results, in place of out/NAME-size.

@@ -275,7 +275,7 @@ fn check_says_what_lists_of_hardware_and_of_sets_are() {
     let folder = Folder::new();
     for (file, what) in [
         ("vehicles/hardware/wheels.toml", "model(s) of hardware"),
-        ("vehicles/hardware/gyros.toml", "model(s) of hardware"),
+        ("vehicles/hardware/cmgs.toml", "model(s) of hardware"),
         ("vehicles/hardware/thrusters.toml", "model(s) of hardware"),
         ("vehicles/hardware/sensors.toml", "model(s) of hardware"),
         ("studies/sets.toml", "set(s) without a vehicle"),
@@ -328,7 +328,7 @@ fn the_help_of_each_command_says_what_it_does_and_how_it_ends() {
         ("run", vec!["Fly a mission", "--out", "--json", "--error-estimate", "Exit code 0"]),
         ("check", vec!["every complaint at once", "Exit code 0"]),
         ("vehicles", vec!["List the vehicles", "NAME"]),
-        ("hardware", vec!["List the wheels, gyros, thrusters and sensors", "NAME"]),
+        ("hardware", vec!["List the wheels, CMGs, thrusters and sensors", "NAME"]),
         ("eval", vec!["at given states", "--states"]),
         ("schema", vec!["JSON Schema", "vehicle", "mission"]),
     ];

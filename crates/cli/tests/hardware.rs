@@ -15,7 +15,7 @@ fn the_hardware_is_listed_kind_by_kind_and_what_is_not_published_is_marked() {
     };
     assert_eq!(line("reaction wheel")[2..], ["N·m", "N·m·s", "kg", "W"]);
     assert_eq!(line("honeywell-hr16-100")[1..5], ["0.2", "100", "12", "126*"]);
-    assert_eq!(line("gyro-class-250")[1..3], ["250*", "250*"]);
+    assert_eq!(line("cmg-class-250")[1..3], ["250*", "250*"]);
     assert_eq!(line("moog-monarc-22-6")[1..4], ["22", "229.5", "0.02"]);
     // Inertia times speed: 0.00136 kg·m² at 7000 rpm.
     assert_eq!(line("small-servicer-2024")[1..4], ["0.1", "0.997*", "0.9"]);

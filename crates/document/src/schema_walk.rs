@@ -70,7 +70,7 @@ impl<'a> Walk<'a> {
             }
             (_, [only]) => self.shape(only, name, item),
             (Value::String(word), several) if several.iter().all(|o| words(o).is_some()) => {
-                let words = several.iter().flat_map(|o| words(o).unwrap_or_default()).collect();
+                let words: Vec<_> = several.iter().flat_map(|o| words_of(o)).collect();
                 self.word(&words, name, word, &item.span);
             }
             (Value::Table(table), several) => self.tables(several, name, table, item),
@@ -83,8 +83,8 @@ impl<'a> Walk<'a> {
             Value::Table(table) => self.table(schema, name, Some(&item.span), table),
             Value::Array(items) => self.list(schema, name, items, &item.span),
             Value::String(word) => {
-                if let Some(words) = words(schema) {
-                    self.word(&words, name, word, &item.span);
+                if words(schema).is_some() {
+                    self.word(&words_of(schema), name, word, &item.span);
                 }
                 if word.is_empty() && schema["minLength"].as_u64() > Some(0) {
                     self.complain(item.span.clone(), format!("{name} must not be empty"), "empty");
@@ -116,17 +116,28 @@ impl<'a> Walk<'a> {
             }
         }
     }
-    fn word(&mut self, words: &Vec<&str>, name: &str, found: &str, span: &Range<usize>) {
-        if words.contains(&found) {
+    /// A word that must be one of these, each with its schema.
+    fn word(
+        &mut self,
+        words: &[(&'a str, &'a Schema)],
+        name: &str,
+        found: &str,
+        span: &Range<usize>,
+    ) {
+        if words.iter().any(|(word, _)| *word == found) {
             return;
         }
-        let all = list_of(words.iter().map(|w| format!("\"{w}\"")), "or");
+        let all = list_of(words.iter().map(|(w, _)| format!("\"{w}\"")), "or");
         let message = format!("{name} must be {all}, found \"{found}\"");
-        let close = closest(found, words.iter().copied());
-        if let Some(word) = close.or(words.first().copied()) {
+        let renamed = words.iter().find(|(_, schema)| was_called(schema, found)).map(|w| w.0);
+        let close = renamed.or_else(|| closest(found, words.iter().map(|w| w.0)));
+        if let Some(word) = close.or(words.first().map(|w| w.0)) {
             self.repairs.replace(span, Value::String(word.to_owned()));
         }
-        let help = close.map(|w| format!("did you mean \"{w}\"?"));
+        let help = close.map(|w| match renamed {
+            Some(_) => format!("\"{found}\" was renamed: write \"{w}\""),
+            None => format!("did you mean \"{w}\"?"),
+        });
         self.complain(span.clone(), message, "not one of these").help = help;
     }
     fn list(&mut self, schema: &'a Schema, name: &str, items: &[Positioned], span: &Range<usize>) {
@@ -214,8 +225,13 @@ impl<'a> Walk<'a> {
     ) -> Option<&'a str> {
         let properties = schema["properties"].as_object()?;
         let free = properties.keys().map(String::as_str).filter(|k| !table.contains_key(*k));
-        let meant = closest(key, free);
+        let formerly = |k: &&str| was_called(&properties[*k], key);
+        let renamed = free.clone().find(formerly);
+        let meant = renamed.or_else(|| closest(key, free));
         let help = match meant {
+            Some(meant) if renamed.is_some() => {
+                format!("`{key}` was renamed: write `{meant}`")
+            }
             Some(meant) if differ_in_unit(key, meant) => {
                 format!("write `{meant}`: a key says the unit of its value")
             }
@@ -285,7 +301,8 @@ impl<'a> Walk<'a> {
                 if let Some(shape) = shapes.iter().find(|s| word_of(s) == Some(word)) {
                     self.table(shape, name, Some(&item.span), table);
                 } else {
-                    self.word(&words, &format!("`{tag}`"), word, span);
+                    let all: Vec<_> = words.iter().copied().zip(shapes.iter().copied()).collect();
+                    self.word(&all, &format!("`{tag}`"), word, span);
                     self.replace(shapes, &item.span);
                 }
             }
@@ -313,6 +330,12 @@ impl<'a> Walk<'a> {
             self.repairs.take(repairs);
         }
     }
+}
+
+/// Whether a key or word has had this name in earlier versions of the format: its schema lists them
+/// under `x-formerly`.
+fn was_called(schema: &Schema, name: &str) -> bool {
+    schema["x-formerly"].as_array().is_some_and(|names| names.iter().any(|n| n == name))
 }
 
 fn is_required(schema: &Schema, key: &str) -> bool {
@@ -379,6 +402,11 @@ fn words(schema: &Schema) -> Option<Vec<&str>> {
         (_, Some(several)) => Some(several.iter().filter_map(Schema::as_str).collect()),
         _ => None,
     }
+}
+
+/// The words that a string may be, each with the schema that has it.
+fn words_of(schema: &Schema) -> Vec<(&str, &Schema)> {
+    words(schema).unwrap_or_default().into_iter().map(|word| (word, schema)).collect()
 }
 
 /// The key whose fixed word tells the shapes apart, if there is one.

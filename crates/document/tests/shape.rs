@@ -31,6 +31,7 @@ struct Craft {
 struct Body {
     name: String,
     /// Mass (kg).
+    #[schemars(extend("x-formerly" = ["heft"]))]
     mass_kg: f64,
     centre_m: Option<[f64; 3]>,
 }
@@ -41,6 +42,7 @@ enum Law {
     /// On the ground.
     Terrestrial,
     /// In orbit.
+    #[schemars(extend("x-formerly" = ["unbound"]))]
     FreeFloating,
 }
 
@@ -281,4 +283,17 @@ mod never_panics {
             prop_assert!(!render(&[complaint], false).is_empty());
         }
     }
+}
+
+#[test]
+fn a_key_or_word_that_was_renamed_is_answered_with_its_new_name() {
+    let body = "name = 'a'\n[[body]]\nname = 'bus'\n";
+    assert_complains(
+        &format!("{body}heft = 3\n"),
+        &["unknown key `heft`", "`heft` was renamed: write `mass_kg`"],
+    );
+    assert_complains(
+        &format!("law = 'unbound'\n{body}mass_kg = 3\n"),
+        &["found \"unbound\"", "\"unbound\" was renamed: write \"free-floating\""],
+    );
 }

@@ -54,29 +54,29 @@ int main(void)
         return failed("set up", status, &complaint);
     }
 
-    WrasseAsked still = {.kind = WRASSE_ASK_STILL};
+    WrasseArmReference still = {.kind = WRASSE_REFERENCE_STILL};
     /* The tool goes to a place ahead, at 5 cm/s along x. */
-    WrasseAsked tool = {
-        .kind = WRASSE_ASK_TOOL,
+    WrasseArmReference tool = {
+        .kind = WRASSE_REFERENCE_TOOL,
         .axes = WRASSE_AXES_INERTIAL,
         .tool_position = {1.5, 0.4, 0.1},
         .tool_attitude = {1.0, 0.0, 0.0, 0.0},
         .tool_velocity = {0.0, 0.0, 0.0, 0.05, 0.0, 0.0},
     };
-    const WrasseAsked *asked[] = {&still, &tool};
-    WrasseTold told;
+    const WrasseArmReference *reference[] = {&still, &tool};
+    WrasseControlOutput output;
     for (int period = 0; period < 2; ++period) {
-        status = wrasse_flight_period(&flight, &sensed, asked[period], &told, &complaint);
+        status = wrasse_flight_period(&flight, &sensed, reference[period], &output, &complaint);
         if (status != WRASSE_OK) {
             return failed("period", status, &complaint);
         }
     }
     /* Seventeen digits: every bit. */
     for (int joint = 0; joint < ATLAS_CLASS_LINK_COUNT; ++joint) {
-        printf("%.17g %.17g %.17g\n", told.joint_position[joint], told.joint_rate[joint],
-               told.effort[joint]);
+        printf("%.17g %.17g %.17g\n", output.joint_position[joint], output.joint_rate[joint],
+               output.effort[joint]);
     }
-    printf("%.17g %.17g %.17g\n", told.attitude_torque[0], told.attitude_torque[1],
-           told.attitude_torque[2]);
+    printf("%.17g %.17g %.17g\n", output.attitude_torque[0], output.attitude_torque[1],
+           output.attitude_torque[2]);
     return 0;
 }

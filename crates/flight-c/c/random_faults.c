@@ -1,4 +1,4 @@
-/* Random faults of single words: in readings, in what is asked, in the tables of the set-up. Counts what
+/* Random faults of single words: in readings, in the reference, in the tables of the set-up. Counts what
    must not be: a status of WRASSE_OK beside a number that is not finite, a refusal that leaves a trace.
    Build: cc random_faults.c libwrasse_flight_c.a -lm; run with the numbers of faults of periods and of
    set-ups. */
@@ -62,19 +62,19 @@ static WrasseSensed good_sensed(void)
     return sensed;
 }
 
-static WrasseAsked good_asked(uint64_t kind)
+static WrasseArmReference good_reference(uint64_t kind)
 {
-    WrasseAsked asked = {.kind = (int32_t)(kind % 4), .axes = (int32_t)(kind / 4 % 2),
+    WrasseArmReference reference = {.kind = (int32_t)(kind % 4), .axes = (int32_t)(kind / 4 % 2),
                          .tool_position = {1.5, 0.4, 0.1}, .tool_attitude = {1, 0, 0, 0},
                          .tool_velocity = {0, 0, 0, 0.05, 0, 0}, .posture_gain = 0.1,
                          .joint_position = {0.2, -0.6, -0.6, 1.9, -0.3, -1.3, 0.4}};
-    return asked;
+    return reference;
 }
 
-static int is_finite(const WrasseTold *told)
+static int is_finite(const WrasseControlOutput *output)
 {
-    const double *words = (const double *)told;
-    for (size_t k = 0; k < sizeof *told / 8; ++k) {
+    const double *words = (const double *)output;
+    for (size_t k = 0; k < sizeof *output / 8; ++k) {
         if (!isfinite(words[k])) {
             return 0;
         }
@@ -83,14 +83,14 @@ static int is_finite(const WrasseTold *told)
 }
 
 /* No torque, no force, no motion. */
-static int is_safe(const WrasseTold *told)
+static int is_safe(const WrasseControlOutput *output)
 {
-    static const WrasseTold none;
-    return is_finite(told) && !memcmp(told->joint_rate, none.joint_rate, sizeof none.joint_rate)
-        && !memcmp(told->joint_acceleration, none.joint_acceleration, sizeof none.joint_acceleration)
-        && !memcmp(told->effort, none.effort, sizeof none.effort)
-        && !memcmp(told->attitude_torque, none.attitude_torque, sizeof none.attitude_torque)
-        && !memcmp(told->force_ahead, none.force_ahead, sizeof none.force_ahead);
+    static const WrasseControlOutput none;
+    return is_finite(output) && !memcmp(output->joint_rate, none.joint_rate, sizeof none.joint_rate)
+        && !memcmp(output->joint_acceleration, none.joint_acceleration, sizeof none.joint_acceleration)
+        && !memcmp(output->effort, none.effort, sizeof none.effort)
+        && !memcmp(output->attitude_torque, none.attitude_torque, sizeof none.attitude_torque)
+        && !memcmp(output->force_ahead, none.force_ahead, sizeof none.force_ahead);
 }
 
 static WrasseStatus set_up(WrasseFlight *flight, int32_t law)
@@ -107,36 +107,36 @@ static long accepted, refused[10], not_finite, not_finite_next, next_refused, ch
 static void period_with_a_fault(WrasseFlight *flight, const WrasseSensed *sensed, uint64_t kind)
 {
     WrasseSensed bad_sensed = *sensed;
-    WrasseAsked asked = good_asked(kind), bad_asked = asked;
+    WrasseArmReference reference = good_reference(kind), bad_reference = reference;
     if (random_bits() & 1) {
         spoil(&bad_sensed, sizeof bad_sensed / 8);
     } else {
-        spoil(&bad_asked, sizeof bad_asked / 8);
+        spoil(&bad_reference, sizeof bad_reference / 8);
     }
-    WrasseTold told, expected;
+    WrasseControlOutput output, expected;
     WrasseComplaint complaint;
-    memset(&told, 0x5a, sizeof told);
+    memset(&output, 0x5a, sizeof output);
     memset(&complaint, 0, sizeof complaint);
     WrasseFlight before = *flight;
-    WrasseStatus status = wrasse_flight_period(flight, &bad_sensed, &bad_asked, &told, &complaint);
+    WrasseStatus status = wrasse_flight_period(flight, &bad_sensed, &bad_reference, &output, &complaint);
     if (status == WRASSE_OK) {
         ++accepted;
-        not_finite += !is_finite(&told);
-        next_refused += wrasse_flight_period(flight, sensed, &asked, &told, NULL) != WRASSE_OK;
-        not_finite_next += !is_finite(&told);
+        not_finite += !is_finite(&output);
+        next_refused += wrasse_flight_period(flight, sensed, &reference, &output, NULL) != WRASSE_OK;
+        not_finite_next += !is_finite(&output);
         *flight = before;
         return;
     }
     ++refused[status];
     changed += memcmp(flight, &before, sizeof before) != 0;
-    not_safe += !is_safe(&told);
+    not_safe += !is_safe(&output);
     silent += complaint.field == NULL || complaint.expected == NULL;
-    wrasse_flight_period(flight, sensed, &asked, &told, NULL);
-    wrasse_flight_period(&before, sensed, &asked, &expected, NULL);
-    changed += memcmp(&told, &expected, sizeof told) || memcmp(flight, &before, sizeof before);
+    wrasse_flight_period(flight, sensed, &reference, &output, NULL);
+    wrasse_flight_period(&before, sensed, &reference, &expected, NULL);
+    changed += memcmp(&output, &expected, sizeof output) || memcmp(flight, &before, sizeof before);
 }
 
-/* Faults along flights of each law, in which the joints go where they are told. */
+/* Faults along flights of each law, in which the joints follow their set-points. */
 static void faults_of_periods(long count)
 {
     static WrasseFlight flight;
@@ -148,14 +148,14 @@ static void faults_of_periods(long count)
                 abort();
             }
         }
-        sensed.wrench_felt = (int32_t)(random_bits() % 2);
+        sensed.wrench_measured = (int32_t)(random_bits() % 2);
         sensed.wrench[3] = 5.0;
         period_with_a_fault(&flight, &sensed, random_bits() % 8);
-        WrasseTold told;
-        WrasseAsked asked = good_asked(0);
-        if (k % 8 == 0 && wrasse_flight_period(&flight, &sensed, &asked, &told, NULL) == WRASSE_OK) {
-            memcpy(sensed.joint_position, told.joint_position, sizeof told.joint_position);
-            memcpy(sensed.joint_rate, told.joint_rate, sizeof told.joint_rate);
+        WrasseControlOutput output;
+        WrasseArmReference reference = good_reference(0);
+        if (k % 8 == 0 && wrasse_flight_period(&flight, &sensed, &reference, &output, NULL) == WRASSE_OK) {
+            memcpy(sensed.joint_position, output.joint_position, sizeof output.joint_position);
+            memcpy(sensed.joint_rate, output.joint_rate, sizeof output.joint_rate);
         }
     }
 }
@@ -187,10 +187,10 @@ static void fault_of_a_set_up(void)
     ++set_ups_accepted;
     WrasseSensed sensed = good_sensed();
     for (uint64_t k = 0; k < 4; ++k) {
-        WrasseAsked asked = good_asked(k % 3);
-        WrasseTold told;
-        WrasseStatus status = wrasse_flight_period(&flight, &sensed, &asked, &told, NULL);
-        set_ups_not_finite += !is_finite(&told);
+        WrasseArmReference reference = good_reference(k % 3);
+        WrasseControlOutput output;
+        WrasseStatus status = wrasse_flight_period(&flight, &sensed, &reference, &output, NULL);
+        set_ups_not_finite += !is_finite(&output);
         set_ups_that_do_not_fly += status != WRASSE_OK;
     }
 }

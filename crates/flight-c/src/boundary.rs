@@ -5,7 +5,7 @@
 use crate::complaint::{ONLY, Refused, WrasseComplaint, WrasseStatus, refused};
 use crate::fault::refusal;
 use crate::laws_table::WrasseLaws;
-use crate::period_data::{WrasseAsked, WrasseSensed, WrasseTold};
+use crate::period_data::{WrasseArmReference, WrasseControlOutput, WrasseSensed};
 use crate::robot_table::{
     WRASSE_JOINTS, WrasseBody, WrasseFrame, WrasseLink, check, frame_from_table, robot_from_tables,
 };
@@ -17,8 +17,8 @@ use wrasse_flight::{PeriodMemory, Setup, checked_period};
 /// Words of eight bytes of a [`WrasseFlight`].
 pub const WRASSE_FLIGHT_WORDS: usize = 4096;
 
-/// Memory of the flight code, given by the caller. What is in it is nobody's business; copying it
-/// copies its state.
+/// Memory of the flight code, given by the caller. Opaque; do not read or write. Copying it copies its
+/// state.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct WrasseFlight {
@@ -72,14 +72,14 @@ pub unsafe extern "C" fn wrasse_flight_set_up(
     unsafe { answer(result, complaint) }
 }
 
-/// One control period: what is sensed and asked goes in, what the actuators are told comes out. The
-/// first period after the set-up takes everything from what is sensed.
+/// One control period: measurements and reference in, commands of the actuators out. The first period
+/// after the set-up takes everything from the measurements.
 ///
-/// Readings and what is asked are held against the bounds that stand at their fields; what would be told
-/// and remembered must be finite. When the status is not `WRASSE_OK` the memory is as it was, to the
-/// byte, so that later periods are those of a flight without this one; `told` has no torque and no
-/// force, its rates and accelerations are zero, and its positions are those that were told last (zero
-/// before the first period).
+/// Measurements and reference are held against the bounds that stand at their fields; output and memory
+/// must be finite. When the status is not `WRASSE_OK` the memory is as it was, to the
+/// byte, so that later periods are those of a flight without this one; `output` has no torque and no
+/// force, its rates and accelerations are zero, and its positions are those of the last accepted period
+/// (zero before the first).
 ///
 /// # Safety
 /// Each pointer is null or points to as much as its type says; `flight` to memory that
@@ -88,21 +88,22 @@ pub unsafe extern "C" fn wrasse_flight_set_up(
 pub unsafe extern "C" fn wrasse_flight_period(
     flight: *mut WrasseFlight,
     sensed: *const WrasseSensed,
-    asked: *const WrasseAsked,
-    told: *mut WrasseTold,
+    reference: *const WrasseArmReference,
+    output: *mut WrasseControlOutput,
     complaint: *mut WrasseComplaint,
 ) -> WrasseStatus {
     // SAFETY: by this function's own condition; null is turned into nothing.
-    let (sensed, asked, told) = unsafe { (sensed.as_ref(), asked.as_ref(), told.as_mut()) };
+    let (sensed, reference, output) =
+        unsafe { (sensed.as_ref(), reference.as_ref(), output.as_mut()) };
     // SAFETY: by this function's own condition.
     let mut known = if flight.is_null() { None } else { unsafe { set_up_flight(flight) } };
-    let mut safe = WrasseTold::default();
+    let mut safe = WrasseControlOutput::default();
     if let Some(flight) = &known {
-        safe = WrasseTold::from_told(&flight.memory.nothing_told());
+        safe = WrasseControlOutput::from_output(&flight.memory.safe_output());
     }
-    let result = match (&mut known, sensed, asked, &told) {
-        _ if flight.is_null() => Err(null(c"flight, sensed, asked or told")),
-        (Some(flight), Some(sensed), Some(asked), Some(_)) => period(flight, sensed, asked),
+    let result = match (&mut known, sensed, reference, &output) {
+        _ if flight.is_null() => Err(null(c"flight, sensed, reference or output")),
+        (Some(flight), Some(sensed), Some(reference), Some(_)) => period(flight, sensed, reference),
         (None, Some(_), Some(_), Some(_)) => Err(refused(
             WrasseStatus::WRASSE_NOT_SET_UP,
             c"flight",
@@ -110,10 +111,10 @@ pub unsafe extern "C" fn wrasse_flight_period(
             0.0,
             c"memory that wrasse_flight_set_up wrote",
         )),
-        _ => Err(null(c"flight, sensed, asked or told")),
+        _ => Err(null(c"flight, sensed, reference or output")),
     };
-    if let Some(told) = told {
-        *told = result.unwrap_or(safe);
+    if let Some(output) = output {
+        *output = result.unwrap_or(safe);
     }
     // SAFETY: by this function's own condition.
     unsafe { answer(result.map(|_| ()), complaint) }
@@ -123,16 +124,16 @@ pub unsafe extern "C" fn wrasse_flight_period(
 #[unsafe(no_mangle)]
 pub extern "C" fn wrasse_status_text(status: i32) -> *const c_char {
     let text = match status {
-        0 => c"it did what it was asked",
+        0 => c"success",
         1 => c"a pointer that must point to something is null",
         2 => c"there are more links than WRASSE_JOINTS",
         3 => c"a link is mounted on one that does not come before it",
-        4 => c"a number of the set-up or of what is asked is not finite or not within its bounds",
+        4 => c"a number of the set-up or of the reference is not finite or not within its bounds",
         5 => c"a choice is none of its constants",
         6 => c"the memory was not set up",
         7 => c"a reading is not finite or not within its bounds",
-        8 => c"what would be told is not finite, passes a limit or jumps",
-        9 => c"what would be remembered is not finite",
+        8 => c"the output is not finite, passes a limit or jumps",
+        9 => c"the memory would not be finite",
         _ => c"no status has this number",
     };
     text.as_ptr()
@@ -184,14 +185,14 @@ fn new_flight(
 fn period(
     flight: &mut Flight,
     sensed: &WrasseSensed,
-    asked: &WrasseAsked,
-) -> Result<WrasseTold, Refused> {
+    reference: &WrasseArmReference,
+) -> Result<WrasseControlOutput, Refused> {
     let Flight { robot, setup, memory, .. } = flight;
     let links = robot.joint_count();
     let (state, push) = sensed.read(links)?;
-    let asked = asked.read(links)?;
-    let told = checked_period(robot, setup, memory, &state, &asked, push.as_ref());
-    told.map(|told| WrasseTold::from_told(&told)).map_err(refusal)
+    let reference = reference.read(links)?;
+    let output = checked_period(robot, setup, memory, &state, &reference, push.as_ref());
+    output.map(|output| WrasseControlOutput::from_output(&output)).map_err(refusal)
 }
 
 fn null(field: &'static CStr) -> Refused {

@@ -7,7 +7,7 @@ use core::ptr;
 #[repr(i32)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WrasseStatus {
-    /// It did what it was asked.
+    /// Success.
     WRASSE_OK = 0,
     /// A pointer that must point to something is null.
     WRASSE_NULL_POINTER = 1,
@@ -15,7 +15,7 @@ pub enum WrasseStatus {
     WRASSE_TOO_MANY_LINKS = 2,
     /// A link is mounted on one that does not come before it.
     WRASSE_PARENT_AFTER_CHILD = 3,
-    /// A number of the set-up, or of what is asked, is not finite or not within its bounds.
+    /// A number of the set-up, or of the reference, is not finite or not within its bounds.
     WRASSE_BAD_NUMBER = 4,
     /// A choice is none of its constants.
     WRASSE_UNKNOWN_CHOICE = 5,
@@ -23,9 +23,9 @@ pub enum WrasseStatus {
     WRASSE_NOT_SET_UP = 6,
     /// A reading of the sensors is not finite, or not within its bounds.
     WRASSE_BAD_READING = 7,
-    /// What would be told is not finite, passes a limit, or makes a set-point jump.
+    /// The output is not finite, passes a limit, or makes a set-point jump.
     WRASSE_BAD_RESULT = 8,
-    /// What would be remembered is not finite.
+    /// The memory would not be finite.
     WRASSE_BAD_MEMORY = 9,
 }
 

@@ -10,11 +10,11 @@ pub(crate) fn refusal(fault: PeriodFault<f64>) -> Refused {
         PeriodFault::Reading(found) => {
             complain(WrasseStatus::WRASSE_BAD_READING, of_sensed(&found), &found)
         }
-        PeriodFault::Asked(found) => {
-            complain(WrasseStatus::WRASSE_BAD_NUMBER, of_asked(&found), &found)
+        PeriodFault::ArmReference(found) => {
+            complain(WrasseStatus::WRASSE_BAD_NUMBER, of_reference(&found), &found)
         }
-        PeriodFault::Told(found) => {
-            complain(WrasseStatus::WRASSE_BAD_RESULT, of_told(&found), &found)
+        PeriodFault::ControlOutput(found) => {
+            complain(WrasseStatus::WRASSE_BAD_RESULT, of_output(&found), &found)
         }
         PeriodFault::Memory => refused(
             WrasseStatus::WRASSE_BAD_MEMORY,
@@ -48,33 +48,33 @@ fn of_sensed(found: &OutOfBounds<f64>) -> (&'static CStr, usize) {
     }
 }
 
-fn of_asked(found: &OutOfBounds<f64>) -> (&'static CStr, usize) {
+fn of_reference(found: &OutOfBounds<f64>) -> (&'static CStr, usize) {
     let index = found.index;
     match found.quantity {
-        Quantity::Position => (c"WrasseAsked.tool_position", index),
-        Quantity::AngularVelocity => (c"WrasseAsked.tool_velocity", index),
-        Quantity::Velocity => (c"WrasseAsked.tool_velocity", index + 3),
-        Quantity::AngularAcceleration => (c"WrasseAsked.tool_acceleration", index),
-        Quantity::Acceleration => (c"WrasseAsked.tool_acceleration", index + 3),
-        Quantity::PostureGain => (c"WrasseAsked.posture_gain", ONLY),
-        Quantity::PostureGainRate => (c"WrasseAsked.posture_gain_rate", ONLY),
-        Quantity::JointPosition => (c"WrasseAsked.joint_position", index),
-        Quantity::JointRate => (c"WrasseAsked.joint_rate", index),
-        Quantity::JointAcceleration => (c"WrasseAsked.joint_acceleration", index),
-        _ => (c"WrasseAsked.tool_attitude", ONLY),
+        Quantity::Position => (c"WrasseArmReference.tool_position", index),
+        Quantity::AngularVelocity => (c"WrasseArmReference.tool_velocity", index),
+        Quantity::Velocity => (c"WrasseArmReference.tool_velocity", index + 3),
+        Quantity::AngularAcceleration => (c"WrasseArmReference.tool_acceleration", index),
+        Quantity::Acceleration => (c"WrasseArmReference.tool_acceleration", index + 3),
+        Quantity::PostureGain => (c"WrasseArmReference.posture_gain", ONLY),
+        Quantity::PostureGainRate => (c"WrasseArmReference.posture_gain_rate", ONLY),
+        Quantity::JointPosition => (c"WrasseArmReference.joint_position", index),
+        Quantity::JointRate => (c"WrasseArmReference.joint_rate", index),
+        Quantity::JointAcceleration => (c"WrasseArmReference.joint_acceleration", index),
+        _ => (c"WrasseArmReference.tool_attitude", ONLY),
     }
 }
 
-fn of_told(found: &OutOfBounds<f64>) -> (&'static CStr, usize) {
+fn of_output(found: &OutOfBounds<f64>) -> (&'static CStr, usize) {
     let index = found.index;
     match found.quantity {
-        Quantity::JointPosition => (c"WrasseTold.joint_position", index),
-        Quantity::JointRate => (c"WrasseTold.joint_rate", index),
-        Quantity::JointAcceleration => (c"WrasseTold.joint_acceleration", index),
-        Quantity::Effort => (c"WrasseTold.effort", index),
-        Quantity::AttitudeTorque => (c"WrasseTold.attitude_torque", index),
-        Quantity::ForceAhead => (c"WrasseTold.force_ahead", index),
-        _ => (c"WrasseTold", index),
+        Quantity::JointPosition => (c"WrasseControlOutput.joint_position", index),
+        Quantity::JointRate => (c"WrasseControlOutput.joint_rate", index),
+        Quantity::JointAcceleration => (c"WrasseControlOutput.joint_acceleration", index),
+        Quantity::Effort => (c"WrasseControlOutput.effort", index),
+        Quantity::AttitudeTorque => (c"WrasseControlOutput.attitude_torque", index),
+        Quantity::ForceAhead => (c"WrasseControlOutput.force_ahead", index),
+        _ => (c"WrasseControlOutput", index),
     }
 }
 

@@ -22,9 +22,9 @@ pub const WRASSE_TASK_POSE: i32 = 0;
 /// Only the position of the tool counts.
 pub const WRASSE_TASK_POSITION: i32 = 1;
 
-/// The attitude control is not told of the arm's motion.
+/// The arm's motion is not fed forward to the attitude control.
 pub const WRASSE_FEEDFORWARD_NONE: i32 = 0;
-/// The attitude control is told the exact torque that the arm's motion takes.
+/// The exact torque that the arm's motion takes is fed forward to the attitude control.
 pub const WRASSE_FEEDFORWARD_EXACT: i32 = 1;
 
 /// After the start the guidance integrates its own model.

@@ -27,8 +27,9 @@ pub use laws_table::{
     WRASSE_TASK_POSE, WRASSE_TASK_POSITION, WrasseLaws,
 };
 pub use period_data::{
-    WRASSE_ASK_COAST, WRASSE_ASK_JOINTS, WRASSE_ASK_STILL, WRASSE_ASK_TOOL, WRASSE_AXES_BASE,
-    WRASSE_AXES_INERTIAL, WrasseAsked, WrasseSensed, WrasseTold,
+    WRASSE_AXES_BASE, WRASSE_AXES_INERTIAL, WRASSE_REFERENCE_COAST, WRASSE_REFERENCE_JOINTS,
+    WRASSE_REFERENCE_STILL, WRASSE_REFERENCE_TOOL, WrasseArmReference, WrasseControlOutput,
+    WrasseSensed,
 };
 pub use robot_table::{
     WRASSE_JOINTS, WrasseBody, WrasseFrame, WrasseJoint, WrasseLink, frame_from_table,

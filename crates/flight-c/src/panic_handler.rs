@@ -1,4 +1,4 @@
-//! What a panic would call: a symbol that nobody defines, so that a program that could panic does not
+//! What a panic would call: an undefined symbol, so that a program that could panic does not
 //! link.
 #![allow(unsafe_code, reason = "the symbol is foreign")]
 

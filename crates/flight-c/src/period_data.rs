@@ -4,17 +4,17 @@ use crate::complaint::{ONLY, Refused, WrasseStatus, choice, refused, unit};
 use crate::robot_table::{WRASSE_JOINTS, vector};
 use wrasse_dynamics::State;
 use wrasse_flight::trajectory::{JointSetPoint, ToolMotion};
-use wrasse_flight::{Asked, Axes, Told};
+use wrasse_flight::{ArmReference, Axes, ControlOutput};
 use wrasse_spatial::{Pose, Quat, SpatialForce, SpatialVelocity};
 
 /// The tool follows a motion.
-pub const WRASSE_ASK_TOOL: i32 = 0;
+pub const WRASSE_REFERENCE_TOOL: i32 = 0;
 /// The joints follow a motion.
-pub const WRASSE_ASK_JOINTS: i32 = 1;
+pub const WRASSE_REFERENCE_JOINTS: i32 = 1;
 /// The joints stand still where they were sent last.
-pub const WRASSE_ASK_STILL: i32 = 2;
+pub const WRASSE_REFERENCE_STILL: i32 = 2;
 /// Nothing is driven.
-pub const WRASSE_ASK_COAST: i32 = 3;
+pub const WRASSE_REFERENCE_COAST: i32 = 3;
 
 /// The tool's motion is in inertial axes.
 pub const WRASSE_AXES_INERTIAL: i32 = 0;
@@ -39,17 +39,17 @@ pub struct WrasseSensed {
     pub joint_position: [f64; WRASSE_JOINTS],
     /// Joint rates (rad/s or m/s), between -100 and 100.
     pub joint_rate: [f64; WRASSE_JOINTS],
-    /// 1 if a push at the tool is felt, 0 if not.
-    pub wrench_felt: i32,
-    /// That push at the tool's origin, tool axes: torque (N·m), then force (N), between -1e6 and 1e6.
+    /// 1 if the wrench at the tool is measured, 0 if not.
+    pub wrench_measured: i32,
+    /// That wrench at the tool's origin, tool axes: torque (N·m), then force (N), between -1e6 and 1e6.
     pub wrench: [f64; 6],
 }
 
-/// What is asked at the end of a period.
+/// Reference of the arm at the end of a period.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WrasseAsked {
-    /// One of `WRASSE_ASK_...`.
+pub struct WrasseArmReference {
+    /// One of `WRASSE_REFERENCE_...`.
     pub kind: i32,
     /// One of `WRASSE_AXES_...`; for the tool.
     pub axes: i32,
@@ -75,10 +75,10 @@ pub struct WrasseAsked {
     pub joint_acceleration: [f64; WRASSE_JOINTS],
 }
 
-/// What the actuators are told for the period.
+/// Commands of the actuators for the period.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct WrasseTold {
+pub struct WrasseControlOutput {
     /// Where each joint should be at its end (rad or m).
     pub joint_position: [f64; WRASSE_JOINTS],
     /// Rates there (rad/s or m/s).
@@ -117,7 +117,8 @@ impl WrasseSensed {
         links: usize,
     ) -> Result<(State<f64, WRASSE_JOINTS>, Option<SpatialForce<f64>>), Refused> {
         unit(c"WrasseSensed.attitude", &self.attitude).map_err(Refused::of_reading)?;
-        let felt = choice(c"WrasseSensed.wrench_felt", self.wrench_felt, [false, true])?;
+        let measured =
+            choice(c"WrasseSensed.wrench_measured", self.wrench_measured, [false, true])?;
         let state = State {
             X_NB: rotated(self.attitude, self.position),
             V_NB_B: SpatialVelocity::new(vector(self.angular_velocity), vector(self.velocity)),
@@ -126,33 +127,39 @@ impl WrasseSensed {
         };
         let [a, b, c, d, e, f] = self.wrench;
         let push = SpatialForce::new(vector([a, b, c]), vector([d, e, f]));
-        Ok((state, felt.then_some(push)))
+        Ok((state, measured.then_some(push)))
     }
 }
 
-impl WrasseAsked {
-    /// What is asked of a robot of so many links. The period holds its numbers against their bounds.
-    pub(crate) fn read(&self, links: usize) -> Result<Asked<f64, WRASSE_JOINTS>, Refused> {
+impl WrasseArmReference {
+    /// The reference of a robot of so many links. The period holds its numbers against their bounds.
+    pub(crate) fn read(&self, links: usize) -> Result<ArmReference<f64, WRASSE_JOINTS>, Refused> {
         match self.kind {
-            WRASSE_ASK_TOOL => self.tool(),
-            WRASSE_ASK_JOINTS => Ok(Asked::Joints(JointSetPoint {
+            WRASSE_REFERENCE_TOOL => self.tool(),
+            WRASSE_REFERENCE_JOINTS => Ok(ArmReference::Joints(JointSetPoint {
                 q: joints(&self.joint_position, links),
                 v: joints(&self.joint_rate, links),
                 vdot: joints(&self.joint_acceleration, links),
             })),
-            WRASSE_ASK_STILL => Ok(Asked::Still),
-            WRASSE_ASK_COAST => Ok(Asked::Coast),
+            WRASSE_REFERENCE_STILL => Ok(ArmReference::Still),
+            WRASSE_REFERENCE_COAST => Ok(ArmReference::Coast),
             _ => {
                 let (status, found) = (WrasseStatus::WRASSE_UNKNOWN_CHOICE, f64::from(self.kind));
-                Err(refused(status, c"WrasseAsked.kind", ONLY, found, c"one of its constants"))
+                Err(refused(
+                    status,
+                    c"WrasseArmReference.kind",
+                    ONLY,
+                    found,
+                    c"one of its constants",
+                ))
             }
         }
     }
 
-    fn tool(&self) -> Result<Asked<f64, WRASSE_JOINTS>, Refused> {
-        let axes = choice(c"WrasseAsked.axes", self.axes, [Axes::Inertial, Axes::Base])?;
-        unit(c"WrasseAsked.tool_attitude", &self.tool_attitude)?;
-        Ok(Asked::Tool {
+    fn tool(&self) -> Result<ArmReference<f64, WRASSE_JOINTS>, Refused> {
+        let axes = choice(c"WrasseArmReference.axes", self.axes, [Axes::Inertial, Axes::Base])?;
+        unit(c"WrasseArmReference.tool_attitude", &self.tool_attitude)?;
+        Ok(ArmReference::Tool {
             reference: ToolMotion {
                 X_NE: rotated(self.tool_attitude, self.tool_position),
                 V_NE_N: twist(self.tool_velocity),
@@ -165,16 +172,16 @@ impl WrasseAsked {
     }
 }
 
-impl WrasseTold {
-    /// What a period told.
-    pub(crate) fn from_told(told: &Told<f64, WRASSE_JOINTS>) -> Self {
+impl WrasseControlOutput {
+    /// The output of a period.
+    pub(crate) fn from_output(output: &ControlOutput<f64, WRASSE_JOINTS>) -> Self {
         Self {
-            joint_position: told.set_points.map(|s| s.position),
-            joint_rate: told.set_points.map(|s| s.rate),
-            joint_acceleration: told.set_points.map(|s| s.acceleration),
-            effort: told.effort,
-            attitude_torque: told.attitude_torque_B.to_array(),
-            force_ahead: told.ahead_force_B.to_array(),
+            joint_position: output.set_points.map(|s| s.position),
+            joint_rate: output.set_points.map(|s| s.rate),
+            joint_acceleration: output.set_points.map(|s| s.acceleration),
+            effort: output.effort,
+            attitude_torque: output.attitude_torque_B.to_array(),
+            force_ahead: output.ahead_force_B.to_array(),
         }
     }
 }

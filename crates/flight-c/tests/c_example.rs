@@ -8,8 +8,8 @@ use c_programs::run_in_c;
 use wrasse_dynamics::{Frame, State};
 use wrasse_flight::trajectory::ToolMotion;
 use wrasse_flight::{
-    ArmLaw, Asked, Assignment, Axes, BaseControlSetup, Feedforward, JointUse, Measurement,
-    NavigationSetup, PeriodMemory, Setup, Task, Told, Tuning, control_period,
+    ArmLaw, ArmReference, Assignment, Axes, BaseControlSetup, ControlOutput, Feedforward, JointUse,
+    Measurement, NavigationSetup, PeriodMemory, Setup, Task, Tuning, control_period,
 };
 use wrasse_flight_c::{WRASSE_JOINTS, WrasseFlight};
 use wrasse_hardware::JointLimits;
@@ -21,7 +21,7 @@ fn atlas_class() -> Vehicle {
 }
 
 /// The same two periods in Rust, with the robot of the catalogue.
-fn in_rust() -> Told<f64, JOINTS> {
+fn in_rust() -> ControlOutput<f64, JOINTS> {
     let vehicle = atlas_class();
     let robot: &wrasse_vehicle::VehicleRobot = &vehicle.robot;
     let tool: Frame<f64> = vehicle.frame(&vehicle.tools[0]).unwrap();
@@ -60,13 +60,13 @@ fn in_rust() -> Told<f64, JOINTS> {
         state.v[j] = 0.01 * (f64::from(u8::try_from(j).unwrap()) - 3.0);
     }
     let mut memory = PeriodMemory::new();
-    control_period(robot, &setup, &mut memory, &state, &Asked::Still, None);
+    control_period(robot, &setup, &mut memory, &state, &ArmReference::Still, None);
     let reference = ToolMotion {
         X_NE: Pose::new(Mat3::identity(), vec3(1.5, 0.4, 0.1)),
         V_NE_N: SpatialVelocity::from_array([0.0, 0.0, 0.0, 0.05, 0.0, 0.0]),
         Vdot_NE_N: SpatialVelocity::zero(),
     };
-    let asked = Asked::Tool { reference, axes: Axes::Inertial, gain: 0.0, gain_rate: 0.0 };
+    let asked = ArmReference::Tool { reference, axes: Axes::Inertial, gain: 0.0, gain_rate: 0.0 };
     control_period(robot, &setup, &mut memory, &state, &asked, None)
 }
 

@@ -12,9 +12,9 @@ use atlas_class::{BASE, LINKS, TOOL};
 use std::ptr::null_mut;
 use wrasse_dynamics::{Frame, Robot, State, kinematics};
 use wrasse_flight_c::{
-    WRASSE_FLIGHT_WORDS, WRASSE_JOINTS, WrasseAsked, WrasseFlight, WrasseLaws, WrasseSensed,
-    WrasseStatus, WrasseTold, frame_from_table, robot_from_tables, wrasse_flight_period,
-    wrasse_flight_set_up,
+    WRASSE_FLIGHT_WORDS, WRASSE_JOINTS, WrasseArmReference, WrasseControlOutput, WrasseFlight,
+    WrasseLaws, WrasseSensed, WrasseStatus, frame_from_table, robot_from_tables,
+    wrasse_flight_period, wrasse_flight_set_up,
 };
 
 const PERIOD: f64 = 0.01;
@@ -60,7 +60,7 @@ fn sensed() -> WrasseSensed {
         velocity: [0.0; 3],
         joint_position,
         joint_rate: [0.0; WRASSE_JOINTS],
-        wrench_felt: 0,
+        wrench_measured: 0,
         wrench: [0.0; 6],
     }
 }
@@ -77,13 +77,13 @@ fn tool_at(joint_position: &[f64; WRASSE_JOINTS]) -> [f64; 3] {
 }
 
 /// The tool stays where it is at the start, but for 2 cm along x, held as it is turned then.
-fn asked(posture_gain: f64) -> WrasseAsked {
+fn asked(posture_gain: f64) -> WrasseArmReference {
     let (robot, tool) = robot();
     let state = State { q: sensed().joint_position, ..State::default() };
     let X = kinematics(&robot, &state).pose(&tool);
     let quat = wrasse_spatial::Quat::from_matrix(&X.rotation);
     let [x, y, z] = X.translation.to_array();
-    WrasseAsked {
+    WrasseArmReference {
         kind: 0,
         axes: 0,
         tool_position: [x + 0.02, y, z],
@@ -101,9 +101,9 @@ fn asked(posture_gain: f64) -> WrasseAsked {
 fn fly(
     flight: &mut WrasseFlight,
     sensed: &WrasseSensed,
-    asked: &WrasseAsked,
-) -> (WrasseStatus, WrasseTold) {
-    let mut told = WrasseTold::default();
+    asked: &WrasseArmReference,
+) -> (WrasseStatus, WrasseControlOutput) {
+    let mut told = WrasseControlOutput::default();
     // SAFETY: all point to what they are; the complaint may be null.
     let status = unsafe { wrasse_flight_period(flight, sensed, asked, &raw mut told, null_mut()) };
     (status, told)
@@ -142,7 +142,7 @@ fn traces(
             return None;
         }
         assert_eq!(status, WrasseStatus::WRASSE_OK, "refused in period {k}");
-        // The joints go where they are told.
+        // The joints follow their set-points.
         (read_good.joint_position, read_good.joint_rate) =
             (expected.joint_position, expected.joint_rate);
         (read_bad.joint_position, read_bad.joint_rate) = (told.joint_position, told.joint_rate);
@@ -168,7 +168,7 @@ fn wrong_readings() -> Vec<Fault> {
             all.push(Box::new(move |s| s.angular_velocity[k] = 10.0 * share));
             all.push(Box::new(move |s| s.velocity[k] = 100.0 * share));
             all.push(Box::new(move |s| s.velocity[k] = share));
-            all.push(Box::new(move |s| (s.wrench_felt, s.wrench[k]) = (1, 1e6 * share)));
+            all.push(Box::new(move |s| (s.wrench_measured, s.wrench[k]) = (1, 1e6 * share)));
             let (half_sin, half_cos) = (1.5 * share).sin_cos();
             all.push(Box::new(move |s| {
                 (s.attitude[0], s.attitude[k + 1]) = (half_cos, half_sin);
@@ -241,7 +241,7 @@ fn with_the_joints_asked_for_a_wrong_reading_is_forgotten_after_two_periods() {
                 let mut asked = asked(0.0);
                 (asked.kind, asked.joint_position) = (kind, posture);
                 let (mut good, mut bad) = (set_up(law, &posture), set_up(law, &posture));
-                let mut told = [WrasseTold::default(); 2];
+                let mut told = [WrasseControlOutput::default(); 2];
                 for k in 0..5 {
                     let mut read = sensed();
                     told[0] = fly(&mut good, &read, &asked).1;

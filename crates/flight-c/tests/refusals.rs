@@ -6,9 +6,10 @@
 use std::ffi::{CStr, c_char};
 use std::ptr::{null, null_mut};
 use wrasse_flight_c::{
-    WRASSE_ASK_STILL, WRASSE_FLIGHT_WORDS, WRASSE_JOINTS, WrasseAsked, WrasseBody, WrasseComplaint,
-    WrasseFlight, WrasseFrame, WrasseJoint, WrasseLaws, WrasseLink, WrasseSensed, WrasseStatus,
-    WrasseTold, wrasse_flight_period, wrasse_flight_set_up, wrasse_status_text,
+    WRASSE_FLIGHT_WORDS, WRASSE_JOINTS, WRASSE_REFERENCE_STILL, WrasseArmReference, WrasseBody,
+    WrasseComplaint, WrasseControlOutput, WrasseFlight, WrasseFrame, WrasseJoint, WrasseLaws,
+    WrasseLink, WrasseSensed, WrasseStatus, wrasse_flight_period, wrasse_flight_set_up,
+    wrasse_status_text,
 };
 
 const UNTURNED: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -126,14 +127,14 @@ fn sensed() -> WrasseSensed {
         velocity: [0.0; 3],
         joint_position: [0.4; WRASSE_JOINTS],
         joint_rate: [0.0; WRASSE_JOINTS],
-        wrench_felt: 0,
+        wrench_measured: 0,
         wrench: [0.0; 6],
     }
 }
 
-fn still() -> WrasseAsked {
-    WrasseAsked {
-        kind: WRASSE_ASK_STILL,
+fn still() -> WrasseArmReference {
+    WrasseArmReference {
+        kind: WRASSE_REFERENCE_STILL,
         axes: 0,
         tool_position: [0.0; 3],
         tool_attitude: [1.0, 0.0, 0.0, 0.0],
@@ -147,7 +148,7 @@ fn still() -> WrasseAsked {
     }
 }
 
-fn period(flight: &mut WrasseFlight, sensed: &WrasseSensed) -> (WrasseStatus, WrasseTold) {
+fn period(flight: &mut WrasseFlight, sensed: &WrasseSensed) -> (WrasseStatus, WrasseControlOutput) {
     let (status, told, _) = period_asked(flight, sensed, &still());
     (status, told)
 }
@@ -155,10 +156,11 @@ fn period(flight: &mut WrasseFlight, sensed: &WrasseSensed) -> (WrasseStatus, Wr
 fn period_asked(
     flight: &mut WrasseFlight,
     sensed: &WrasseSensed,
-    asked: &WrasseAsked,
-) -> (WrasseStatus, WrasseTold, WrasseComplaint) {
+    asked: &WrasseArmReference,
+) -> (WrasseStatus, WrasseControlOutput, WrasseComplaint) {
     // What stood there before must not be taken for what is told.
-    let mut told = WrasseTold { effort: [7.0; WRASSE_JOINTS], ..WrasseTold::default() };
+    let mut told =
+        WrasseControlOutput { effort: [7.0; WRASSE_JOINTS], ..WrasseControlOutput::default() };
     let mut complaint = nothing_said();
     // SAFETY: all point to what they are.
     let status =
@@ -167,7 +169,7 @@ fn period_asked(
 }
 
 /// A reading or a wish that is spoilt, the field it is in and its bound.
-type Spoilt = (fn(&mut WrasseSensed, &mut WrasseAsked, f64), &'static str, f64);
+type Spoilt = (fn(&mut WrasseSensed, &mut WrasseArmReference, f64), &'static str, f64);
 
 /// Just above its bound a number is refused with its field, the number and its bounds; at the bound it
 /// is not refused for that.
@@ -179,15 +181,19 @@ fn a_number_just_beyond_its_bound_is_refused_by_its_field_and_without_torque() {
         (|s, _, x| s.velocity[1] = x, "WrasseSensed.velocity", 100.0),
         (|s, _, x| s.joint_position[1] = x, "WrasseSensed.joint_position", 1e6),
         (|s, _, x| s.joint_rate[1] = x, "WrasseSensed.joint_rate", 100.0),
-        (|s, _, x| (s.wrench_felt, s.wrench[1]) = (1, x), "WrasseSensed.wrench", 1e6),
-        (|_, a, x| a.tool_position[1] = x, "WrasseAsked.tool_position", 1e6),
-        (|_, a, x| a.tool_velocity[1] = x, "WrasseAsked.tool_velocity", 10.0),
-        (|_, a, x| a.tool_acceleration[1] = x, "WrasseAsked.tool_acceleration", 100.0),
-        (|_, a, x| (a.kind, a.joint_position[1]) = (1, x), "WrasseAsked.joint_position", 1e6),
-        (|_, a, x| (a.kind, a.joint_rate[1]) = (1, x), "WrasseAsked.joint_rate", 100.0),
+        (|s, _, x| (s.wrench_measured, s.wrench[1]) = (1, x), "WrasseSensed.wrench", 1e6),
+        (|_, a, x| a.tool_position[1] = x, "WrasseArmReference.tool_position", 1e6),
+        (|_, a, x| a.tool_velocity[1] = x, "WrasseArmReference.tool_velocity", 10.0),
+        (|_, a, x| a.tool_acceleration[1] = x, "WrasseArmReference.tool_acceleration", 100.0),
+        (
+            |_, a, x| (a.kind, a.joint_position[1]) = (1, x),
+            "WrasseArmReference.joint_position",
+            1e6,
+        ),
+        (|_, a, x| (a.kind, a.joint_rate[1]) = (1, x), "WrasseArmReference.joint_rate", 100.0),
         (
             |_, a, x| (a.kind, a.joint_acceleration[1]) = (1, x),
-            "WrasseAsked.joint_acceleration",
+            "WrasseArmReference.joint_acceleration",
             1e4,
         ),
     ];
@@ -197,7 +203,7 @@ fn a_number_just_beyond_its_bound_is_refused_by_its_field_and_without_torque() {
     assert_eq!(status, WrasseStatus::WRASSE_OK);
     for (spoil, field, bound) in fields {
         for found in [bound.next_up(), -bound.next_up(), 1e308, f64::NAN] {
-            let (mut sensed, mut asked) = (sensed(), WrasseAsked { kind: 0, ..still() });
+            let (mut sensed, mut asked) = (sensed(), WrasseArmReference { kind: 0, ..still() });
             spoil(&mut sensed, &mut asked, found);
             let before = flight;
             let (status, told, complaint) = period_asked(&mut flight, &sensed, &asked);
@@ -215,10 +221,13 @@ fn a_number_just_beyond_its_bound_is_refused_by_its_field_and_without_torque() {
             assert_eq!(complaint.found.to_bits(), found.to_bits());
             assert_eq!(flight.memory, before.memory, "{field}: the memory has changed");
             // Zeros, at the set-points that were told last.
-            let safe = WrasseTold { joint_position: first.joint_position, ..WrasseTold::default() };
+            let safe = WrasseControlOutput {
+                joint_position: first.joint_position,
+                ..WrasseControlOutput::default()
+            };
             assert_eq!(told, safe);
         }
-        let (mut sensed, mut asked) = (sensed(), WrasseAsked { kind: 0, ..still() });
+        let (mut sensed, mut asked) = (sensed(), WrasseArmReference { kind: 0, ..still() });
         spoil(&mut sensed, &mut asked, bound);
         let mut copy = flight;
         let (status, ..) = period_asked(&mut copy, &sensed, &asked);
@@ -239,7 +248,7 @@ fn a_bad_reading_changes_nothing_and_the_next_good_one_is_flown() {
     let mut blind = sensed();
     blind.joint_rate[1] = f64::INFINITY;
     let (status, told) = period(&mut flight, &blind);
-    assert_eq!((status, told), (WrasseStatus::WRASSE_BAD_READING, WrasseTold::default()));
+    assert_eq!((status, told), (WrasseStatus::WRASSE_BAD_READING, WrasseControlOutput::default()));
     let (status, told) = period(&mut flight, &sensed());
     assert_eq!((status, told), period(&mut untouched, &sensed()), "the refusal left a trace");
     assert_eq!(status, WrasseStatus::WRASSE_OK);

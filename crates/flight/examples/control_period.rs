@@ -14,7 +14,7 @@ mod spanning_states;
 use spanning_states::{Period, servicer, setup, states};
 use std::process::ExitCode;
 use wrasse_dynamics::{Robot, State, kinematics, momentum};
-use wrasse_flight::{ArmLaw, Setup, Told};
+use wrasse_flight::{ArmLaw, ControlOutput, Setup};
 
 /// The state that stands for an ordinary one.
 const ORDINARY: usize = 9;
@@ -25,7 +25,7 @@ fn one_period<const J: usize>(
     period: &mut Period<J>,
     robot: &Robot<f64, J>,
     setup: &Setup<f64, J>,
-) -> Told<f64, J> {
+) -> ControlOutput<f64, J> {
     period.fly(robot, setup)
 }
 

@@ -195,7 +195,7 @@ impl<T: Scalar> AttitudeEstimator<T> {
         let with_a = then.aa.to_mat3() + then.ab * carried.G.transpose();
         let with_b = then.ab.transpose() + then.bb.to_mat3() * carried.G.transpose();
         let S = Sym3::symmetric_part(&(with_a + carried.G * with_b)) + carried.noise;
-        // Written so that an innovation that is no number is refused as well.
+        // Written so that a NaN innovation is refused as well.
         let fits = z.dot(S.solve(z)) <= T::from_f64(GATE * GATE);
         if !fits {
             self.refuse(&carried);
@@ -228,7 +228,7 @@ impl<T: Scalar> AttitudeEstimator<T> {
         self.restarts = self.restarts.saturating_add(1);
     }
     /// A reading carried from when it was taken to now, by the gyro without its bias. None if it is
-    /// no number, or older than the memory reaches.
+    /// NaN, or older than the memory reaches.
     fn carried(&self, reading: &TrackerReading<T>) -> Option<Carried<T>> {
         let turn = self.past.turn_since(reading.age, self.bias_B)?;
         let quat_NB = (reading.quat_NB * turn).normalized();

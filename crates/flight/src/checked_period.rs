@@ -1,11 +1,11 @@
-//! A control period that is checked on both sides: readings and what is asked against their bounds, what
-//! would be told and remembered for being finite. Until all of it holds nothing is kept.
+//! A control period that is checked on both sides: readings and reference against their bounds, output and
+//! memory for being finite. Until all of it holds nothing is kept.
 
-use crate::computer::Setup;
-use crate::control_period::{Asked, PeriodMemory, control_period};
-use crate::period_bounds::{OutOfBounds, Quantity, check_asked, check_reading, within};
-use crate::period_command::Told;
+use crate::control_period::{ArmReference, PeriodMemory, control_period};
+use crate::period_bounds::{OutOfBounds, Quantity, check_reading, check_reference, within};
+use crate::period_command::ControlOutput;
 use crate::resolved_motion::{Belief, Resolved, ResolvedMotion};
+use crate::setup::Setup;
 use wrasse_dynamics::{Robot, State};
 use wrasse_hardware::SetPoint;
 use wrasse_spatial::{Pose, Scalar, SpatialForce, SpatialInertia, SpatialVelocity};
@@ -15,10 +15,10 @@ use wrasse_spatial::{Pose, Scalar, SpatialForce, SpatialInertia, SpatialVelocity
 pub enum PeriodFault<T> {
     /// A reading is not finite, or beyond its bound.
     Reading(OutOfBounds<T>),
-    /// The same of what is asked.
-    Asked(OutOfBounds<T>),
-    /// The same of what would be told.
-    Told(OutOfBounds<T>),
+    /// The same of the reference.
+    ArmReference(OutOfBounds<T>),
+    /// The same of the output.
+    ControlOutput(OutOfBounds<T>),
     /// A number that would be remembered is not finite.
     Memory,
 }
@@ -34,43 +34,44 @@ pub fn checked_period<T: Scalar, const J: usize>(
     setup: &Setup<T, J>,
     memory: &mut PeriodMemory<T, J>,
     sensed: &State<T, J>,
-    asked: &Asked<T, J>,
+    reference: &ArmReference<T, J>,
     tool_wrench_E: Option<&SpatialForce<T>>,
-) -> Result<Told<T, J>, PeriodFault<T>> {
+) -> Result<ControlOutput<T, J>, PeriodFault<T>> {
     let joints = robot.joint_count();
     check_reading(sensed, joints, tool_wrench_E).map_err(PeriodFault::Reading)?;
-    check_asked(asked, joints).map_err(PeriodFault::Asked)?;
+    check_reference(reference, joints).map_err(PeriodFault::ArmReference)?;
     let mut next = *memory;
-    let told = control_period(robot, setup, &mut next, sensed, asked, tool_wrench_E);
-    check_told(setup, &told, joints).map_err(PeriodFault::Told)?;
+    let output = control_period(robot, setup, &mut next, sensed, reference, tool_wrench_E);
+    check_output(setup, &output, joints).map_err(PeriodFault::ControlOutput)?;
     if !next.is_finite() {
         return Err(PeriodFault::Memory);
     }
     *memory = next;
-    Ok(told)
+    Ok(output)
 }
 
 impl<T: Scalar, const J: usize> PeriodMemory<T, J> {
-    /// What is told where a period is refused: no torque, no force, and set-points at rest where they
-    /// were told last.
-    pub fn nothing_told(&self) -> Told<T, J> {
+    /// Output where a period is refused: no torque, no force, and the last set-points, at rest.
+    pub fn safe_output(&self) -> ControlOutput<T, J> {
         let at_rest = |s: SetPoint<T>| SetPoint { position: s.position, ..SetPoint::default() };
-        Told::nothing(self.now.map(at_rest), SpatialInertia::zero())
+        ControlOutput::nothing(self.now.map(at_rest), SpatialInertia::zero())
     }
 
     /// Whether every number in it is finite.
     fn is_finite(&self) -> bool {
         // Each field by its name: one that is added must be looked at too.
-        let Self { belief, motion, reference, acceleration, now, swing_B, surprise, .. } = self;
+        let Self {
+            belief, motion, reference, acceleration, now, joint_momentum_B, innovation, ..
+        } = self;
         let Belief { X_NB, q, h_Scm_N } = belief;
         let ResolvedMotion { rate: Resolved { qdot, V_NB_B }, qddot, A_NB_B } = motion;
         let mut rest = Rest::none();
         rest.pose(X_NB);
         rest.pose(&reference.X_NE);
-        for V in [V_NB_B, A_NB_B, surprise, &reference.V_NE_N, &reference.Vdot_NE_N] {
+        for V in [V_NB_B, A_NB_B, innovation, &reference.V_NE_N, &reference.Vdot_NE_N] {
             rest.twist(V);
         }
-        rest.numbers(swing_B.to_array());
+        rest.numbers(joint_momentum_B.to_array());
         rest.numbers(h_Scm_N.torque.to_array());
         rest.numbers(h_Scm_N.force.to_array());
         for joints in [q, qdot, qddot, acceleration] {
@@ -111,19 +112,19 @@ impl<T: Scalar> Rest<T> {
 }
 
 /// Set-points within the bounds of readings, efforts within their limits, the rest finite.
-fn check_told<T: Scalar, const J: usize>(
+fn check_output<T: Scalar, const J: usize>(
     setup: &Setup<T, J>,
-    told: &Told<T, J>,
+    output: &ControlOutput<T, J>,
     joints: usize,
 ) -> Result<(), OutOfBounds<T>> {
     let bound = |quantity: Quantity| T::from_f64(quantity.bound());
     let largest = |quantity, pick: fn(&SetPoint<T>) -> T| {
-        within(quantity, bound(quantity), told.set_points.iter().map(pick).take(joints))
+        within(quantity, bound(quantity), output.set_points.iter().map(pick).take(joints))
     };
     largest(Quantity::JointPosition, |s| s.position)?;
     largest(Quantity::JointRate, |s| s.rate)?;
-    finite(Quantity::JointAcceleration, told.set_points.iter().map(|s| s.acceleration))?;
-    for (index, (found, limits)) in told.effort.iter().zip(&setup.limits).enumerate() {
+    finite(Quantity::JointAcceleration, output.set_points.iter().map(|s| s.acceleration))?;
+    for (index, (found, limits)) in output.effort.iter().zip(&setup.limits).enumerate() {
         // Scaling by the share of the limit rounds twice.
         let over = T::one() + T::from_f64(4.0) * T::epsilon();
         let inside = limits.effort.is_none_or(|limit| found.abs() <= limit * over);
@@ -131,8 +132,8 @@ fn check_told<T: Scalar, const J: usize>(
             return Err(OutOfBounds { quantity: Quantity::Effort, index, found: *found });
         }
     }
-    finite(Quantity::AttitudeTorque, told.attitude_torque_B.to_array())?;
-    finite(Quantity::ForceAhead, told.ahead_force_B.to_array())
+    finite(Quantity::AttitudeTorque, output.attitude_torque_B.to_array())?;
+    finite(Quantity::ForceAhead, output.ahead_force_B.to_array())
 }
 
 fn finite<T: Scalar>(

@@ -1,82 +1,23 @@
-//! The flight computer: which phase, where the tool should be, what the actuators are told.
+//! The flight computer: phases, references, estimates and the commands of the actuators.
 
-use crate::base_control::{Actuation, BaseControl, BaseControlSetup};
-use crate::control_period::{Asked, PeriodMemory};
-use crate::door::{Axes, Command, Sensed};
-use crate::guidance::{Guidance, Guided};
-use crate::law::{ArmLaw, Measurement, Tuning};
-use crate::navigation::{Navigation, NavigationSetup};
-use crate::period_command::Told;
+use crate::allocation::{Allocation, Unit};
+use crate::base_control::BaseControl;
+use crate::control_period::{ArmReference, PeriodMemory};
+use crate::guidance::{Guidance, GuidanceContext};
+use crate::interface::{Axes, Command, Sensed};
+use crate::law::ArmLaw;
+use crate::navigation::Navigation;
+use crate::period_command::ControlOutput;
 use crate::phase::Phase;
-use crate::resolved_motion::{Assignment, JointUse};
 use crate::sequence::BadPhase;
-use crate::steering::{Steered, Unit};
-use wrasse_dynamics::{Frame, Robot, State};
-use wrasse_hardware::{ActuatorReadings, JointLimits};
-use wrasse_spatial::{Pose, Quat, Real, Scalar, Vec3};
-
-/// How a flight computer is set up.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Setup<T, const J: usize> {
-    /// What is asked of the arm; its axes are those of the current phase.
-    pub assignment: Assignment<T>,
-    /// How the joints may be used.
-    pub joints: JointUse<T, J>,
-    /// How the base is controlled.
-    pub base: BaseControlSetup<T>,
-    /// What the sensors are.
-    pub navigation: NavigationSetup<T>,
-    /// What the guidance measures.
-    pub measurement: Measurement,
-    /// Numbers of the laws.
-    pub tuning: Tuning<T>,
-    /// Limits of the joints.
-    pub limits: [JointLimits<T>; J],
-    /// Joints whose drives follow their set-points whatever it takes: no loop is closed over them here.
-    pub position_driven: [bool; J],
-}
-
-impl<const J: usize> Setup<f64, J> {
-    /// The same setup over another scalar, without estimators, steering and position hold: those decide.
-    pub fn bare<T: Real>(&self) -> Setup<T, J> {
-        let c = T::from_f64;
-        let Assignment { tool, axes, task, law, damped_below } = self.assignment;
-        let tool = Frame { body: tool.body, X_BF: Pose::from_f64(&tool.X_BF) };
-        let quat = self.base.quat_ND;
-        let quat_ND = Quat::new(c(quat.w), c(quat.x), c(quat.y), c(quat.z));
-        let (use_, tuning) = (&self.joints, &self.tuning);
-        Setup {
-            assignment: Assignment { tool, axes, task, law, damped_below: c(damped_below) },
-            joints: JointUse {
-                gain: c(use_.gain),
-                gain_rate: c(use_.gain_rate),
-                posture: use_.posture.map(c),
-                rate_limit: use_.rate_limit.map(c),
-            },
-            base: BaseControlSetup::ideal(self.base.feedforward, quat_ND),
-            navigation: NavigationSetup::perfect(),
-            measurement: self.measurement,
-            tuning: Tuning {
-                period: c(tuning.period),
-                tool_gain: c(tuning.tool_gain),
-                joint_bandwidth: c(tuning.joint_bandwidth),
-                joint_damping: c(tuning.joint_damping),
-                attitude_bandwidth: c(tuning.attitude_bandwidth),
-                attitude_damping: c(tuning.attitude_damping),
-            },
-            position_driven: self.position_driven,
-            limits: self.limits.map(|l| JointLimits {
-                travel: l.travel.map(|(lower, upper)| (c(lower), c(upper))),
-                rate: l.rate.map(c),
-                effort: l.effort.map(c),
-            }),
-        }
-    }
-}
+use crate::setup::{Actuation, Setup};
+use wrasse_dynamics::{Robot, State};
+use wrasse_hardware::ActuatorReadings;
+use wrasse_spatial::{Pose, Scalar, Vec3};
 
 /// What flies: one call per control period.
 ///
-/// It decides what is asked: phases, estimates, steering. [`control_period`](crate::control_period)
+/// It decides: phases, estimates, allocation. [`control_period`](crate::control_period)
 /// turns that into set-points and torques.
 #[derive(Debug, Clone)]
 pub struct FlightComputer<T, const J: usize> {
@@ -102,32 +43,33 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         }
     }
 
-    /// One control period: from what the sensors say to what the actuators are told.
+    /// One control period: from the readings of the sensors to the commands of the actuators.
     ///
     /// # Errors
     /// If a phase begins whose numbers describe no motion.
     pub fn step(&mut self, sensed: &Sensed<T, J>) -> Result<Command<T, J>, BadPhase<T>> {
         let period = self.setup.tuning.period;
         let state = self.navigation.estimate(sensed, &self.memory.acceleration, period);
-        self.memory.look(&self.robot, &self.setup, &state);
-        let of = Guided { robot: &self.robot, setup: &self.setup, memory: &self.memory };
-        let grip = self.guidance.begin(&of)?;
-        let asked = self.guidance.next(&of, &sensed.tool_wrench_E.unwrap_or_default());
+        self.memory.measurement_update(&self.robot, &self.setup, &state);
+        let context =
+            GuidanceContext { robot: &self.robot, setup: &self.setup, memory: &self.memory };
+        let grip = self.guidance.begin(&context)?;
+        let reference = self.guidance.next(&context, &sensed.tool_wrench_E.unwrap_or_default());
         let push = sensed.tool_wrench_E.as_ref();
-        let told = self.memory.act(&self.robot, &self.setup, &state, &asked, push);
-        let (told, steered) = match asked {
-            Asked::Coast => (told, self.base_control.rest()),
-            _ => self.turn_base(told, &state, &sensed.actuators),
+        let output = self.memory.control_update(&self.robot, &self.setup, &state, &reference, push);
+        let (output, allocation) = match reference {
+            ArmReference::Coast => (output, self.base_control.reset()),
+            _ => self.turn_base(output, &state, &sensed.actuators),
         };
         Ok(Command {
-            set_points: told.set_points,
-            effort: told.effort,
-            effort_asked: told.effort_asked,
-            rate_share: told.rate_share,
-            attitude_torque_B: told.attitude_torque_B,
-            actuators: steered.command,
-            steering: steered.report,
-            no_relief: self.guidance.no_relief,
+            set_points: output.set_points,
+            effort: output.effort,
+            effort_commanded: output.effort_commanded,
+            rate_share: output.rate_share,
+            attitude_torque_B: output.attitude_torque_B,
+            actuators: allocation.command,
+            allocation: allocation.report,
+            no_posture_unloading: self.guidance.no_posture_unloading,
             grip,
             phase: self.guidance.phase(),
             reference: self.memory.reference,
@@ -135,31 +77,32 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         })
     }
 
-    /// What the actuators of the base are told, and the joints with what those will really give.
+    /// Commands of the base's actuators, and of the joints given what those will really give.
     fn turn_base(
         &mut self,
-        told: Told<T, J>,
+        output: ControlOutput<T, J>,
         state: &State<T, J>,
         readings: &ActuatorReadings<T>,
-    ) -> (Told<T, J>, Steered<T>) {
+    ) -> (ControlOutput<T, J>, Allocation<T>) {
         let (robot, setup) = (&self.robot, &self.setup);
-        let (steered, lack_B) =
-            self.base_control.command(robot, &setup.tuning, &told, state, readings);
+        let (allocation, lack_B) =
+            self.base_control.command(robot, &setup.tuning, &output, state, readings);
         let counts = lack_B != Vec3::zero()
             && setup.assignment.law != ArmLaw::Terrestrial
             && setup.base.actuation != Actuation::None;
-        let told = if counts { told.without_base_torque(robot, setup, lack_B) } else { told };
-        (told, steered)
+        let output = if counts { output.without_base_torque(robot, setup, lack_B) } else { output };
+        (output, allocation)
     }
 
     /// Pose of the tool as it is believed to be.
     pub(crate) fn believed_tool(&self, axes: Axes) -> Pose<T> {
-        Guided { robot: &self.robot, setup: &self.setup, memory: &self.memory }.believed_tool(axes)
+        GuidanceContext { robot: &self.robot, setup: &self.setup, memory: &self.memory }
+            .believed_tool(axes)
     }
 
-    /// Do without a unit of the base's equipment from now on.
-    pub fn isolate(&mut self, unit: Unit) {
-        self.base_control.isolate(unit);
+    /// Disable a unit of the base's equipment from now on.
+    pub fn disable(&mut self, unit: Unit) {
+        self.base_control.disable(unit);
     }
 
     /// The robot has taken hold of something, or let go: what it is from now on.

@@ -1,16 +1,18 @@
 //! One control period: a bounded piece of code that takes the same way whatever the numbers are.
 //!
-//! What decides (phases, planning, estimators, steering) stands outside; it says what is asked, and
-//! here it is turned into set-points and torques.
+//! What decides (phases, planning, estimators, allocation) stands outside; it gives the reference, which
+//! is turned into set-points and torques here.
 
-use crate::answered_motion::{answered_motion_in, answered_twist, momentum_for, swing_B};
-use crate::computer::Setup;
-use crate::door::Axes;
+use crate::believed_base_response::{
+    base_twist_response, believed_base_response_in, joint_momentum_B, momentum_for,
+};
+use crate::interface::Axes;
 use crate::law::{ArmLaw, Measurement};
-use crate::period_command::{Told, told};
+use crate::period_command::{ControlOutput, control_law};
 use crate::resolved_motion::{
     Assignment, Belief, JointUse, Resolved, ResolvedMotion, WantedMotion, resolved_motion_in,
 };
+use crate::setup::Setup;
 use crate::trajectory::{JointSetPoint, ToolMotion};
 use wrasse_dynamics::{Configuration, InverseDynamics, Robot, State, configure};
 use wrasse_hardware::SetPoint;
@@ -18,9 +20,9 @@ use wrasse_spatial::{
     Mat3, Pose, Quat, Real, SpatialForce, SpatialInertia, SpatialMomentum, SpatialVelocity, Vec3,
 };
 
-/// What is asked of the arm at the end of a period.
+/// Reference of the arm at the end of a period.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Asked<T, const J: usize> {
+pub enum ArmReference<T, const J: usize> {
     /// The tool is on a motion.
     Tool {
         /// Where it should be and how it should move.
@@ -60,14 +62,14 @@ pub struct PeriodMemory<T, const J: usize> {
     pub reference: ToolMotion<T>,
     /// The axes that the reference is in.
     pub axes: Axes,
-    /// Mean joint acceleration that was asked for over the last period (rad/s² or m/s²).
+    /// Mean commanded joint acceleration over the last period (rad/s² or m/s²).
     pub acceleration: [T; J],
     /// Set-points at the start of the coming period.
     pub(crate) now: [SetPoint<T>; J],
     /// Angular momentum of the joints' motion then, on a base that does not turn (N·m·s, base axes).
-    pub(crate) swing_B: Vec3<T>,
+    pub(crate) joint_momentum_B: Vec3<T>,
     /// Measured twist of the base less the one that the law believed in (rad/s, m/s).
-    pub(crate) surprise: SpatialVelocity<T>,
+    pub(crate) innovation: SpatialVelocity<T>,
     /// Whether the sensors were read once.
     pub(crate) started: bool,
     pub(crate) coasting: bool,
@@ -85,22 +87,22 @@ impl<T: Real, const J: usize> Default for PeriodMemory<T, J> {
     }
 }
 
-/// One control period: from what is sensed and what is asked to what the actuators are told.
+/// One control period: from measurements and the reference to the commands of the actuators.
 ///
 /// Neither branch nor iteration depends on a number: what it takes depends only on the robot's tree
 /// and on the laws that are chosen. `sensed` is the state as measured or estimated; of the setup the
-/// navigation and the steering are not read. A push at the tool, if it is felt, is at the tool's
+/// navigation and the allocation are not read. A wrench at the tool, if it is measured, is at the tool's
 /// origin in its axes (N·m, N).
 pub fn control_period<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     setup: &Setup<T, J>,
     memory: &mut PeriodMemory<T, J>,
     sensed: &State<T, J>,
-    asked: &Asked<T, J>,
+    reference: &ArmReference<T, J>,
     tool_wrench_E: Option<&SpatialForce<T>>,
-) -> Told<T, J> {
-    memory.look(robot, setup, sensed);
-    memory.act(robot, setup, sensed, asked, tool_wrench_E)
+) -> ControlOutput<T, J> {
+    memory.measurement_update(robot, setup, sensed);
+    memory.control_update(robot, setup, sensed, reference, tool_wrench_E)
 }
 
 impl<T: Real, const J: usize> PeriodMemory<T, J> {
@@ -121,8 +123,8 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             axes: Axes::Inertial,
             acceleration: [T::zero(); J],
             now: [SetPoint::default(); J],
-            swing_B: Vec3::zero(),
-            surprise: SpatialVelocity::zero(),
+            joint_momentum_B: Vec3::zero(),
+            innovation: SpatialVelocity::zero(),
             started: false,
             coasting: false,
             middle: Configuration::new(),
@@ -131,8 +133,13 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         }
     }
 
-    /// First half of a period: take from what is sensed what the laws may take.
-    pub fn look(&mut self, robot: &Robot<T, J>, setup: &Setup<T, J>, sensed: &State<T, J>) {
+    /// Measurement update: takes over the measurements that the laws may use.
+    pub fn measurement_update(
+        &mut self,
+        robot: &Robot<T, J>,
+        setup: &Setup<T, J>,
+        sensed: &State<T, J>,
+    ) {
         // Torques are constant over the period, so its middle counts for them; and momentum stays, so
         // it may be taken there too. Nothing goes on before the first period.
         let half = T::from_f64(0.5) * setup.tuning.period;
@@ -154,7 +161,7 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             self.start_from(robot, setup, sensed);
         }
         if measured {
-            self.surprise = sensed.V_NB_B - self.motion.rate.V_NB_B;
+            self.innovation = sensed.V_NB_B - self.motion.rate.V_NB_B;
             self.motion.rate.V_NB_B = sensed.V_NB_B;
         }
     }
@@ -187,8 +194,8 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             self.now[j] = SetPoint { position: sensed.q[j], rate: sensed.v[j], ..self.now[j] };
         }
         let still = [T::zero(); J];
-        let (end, X_BE) = self.answer(robot, setup, &sensed.v, &still);
-        self.swing_B = end.swing_B();
+        let (end, X_BE) = self.base_response(robot, setup, &sensed.v, &still);
+        self.joint_momentum_B = end.joint_momentum_B();
         self.reference = at_rest(self.belief.X_NB * X_BE);
     }
 
@@ -199,27 +206,27 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         let M = &configuration.base;
         let h_Scm_B = momentum_for(law, M, &believed);
         self.belief.h_Scm_N = turned_on(&believed.X_NB.rotation, Vec3::zero(), &h_Scm_B);
-        self.swing_B = swing_B(&M.M_bb, &M.momentum_of_rates(&believed.v));
+        self.joint_momentum_B = joint_momentum_B(&M.M_bb, &M.momentum_of_rates(&believed.v));
     }
 
-    /// Second half: follow what is asked, from what the first half [looked](Self::look) at.
-    pub fn act(
+    /// Control update, after the [measurement update](Self::measurement_update): follows the reference.
+    pub fn control_update(
         &mut self,
         robot: &Robot<T, J>,
         setup: &Setup<T, J>,
         sensed: &State<T, J>,
-        asked: &Asked<T, J>,
+        reference: &ArmReference<T, J>,
         tool_wrench_E: Option<&SpatialForce<T>>,
-    ) -> Told<T, J> {
+    ) -> ControlOutput<T, J> {
         let period = setup.tuning.period;
         let (from, began) = (self.belief, self.motion);
         self.began = began;
         let quat_NB = Quat::from_matrix(&from.X_NB.rotation);
         self.motion.go_on(robot, &quat_NB, period, &mut self.belief);
-        let (end, rate_share) = self.follow(robot, setup, asked, (&from, &began));
+        let (end, rate_share) = self.follow(robot, setup, reference, (&from, &began));
         self.correct_base(&quat_NB, (&from, &began), period);
         let (law, h_B) = (setup.assignment.law, self.belief.h_Scm_B());
-        self.motion.rate.V_NB_B = answered_twist(law, &end.M_B, &end.h_rates_B, &h_B);
+        self.motion.rate.V_NB_B = base_twist_response(law, &end.M_B, &end.h_rates_B, &h_B);
         let now = self.now;
         for j in robot.joints() {
             self.now[j] = SetPoint {
@@ -229,17 +236,17 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             };
             self.acceleration[j] = (self.now[j].rate - now[j].rate) / period;
         }
-        let swing_B = end.swing_B();
-        let reaction_B = (swing_B - self.swing_B) * (T::one() / period);
-        self.swing_B = swing_B;
-        self.coasting = matches!(asked, Asked::Coast);
+        let joint_momentum_B = end.joint_momentum_B();
+        let reaction_B = (joint_momentum_B - self.joint_momentum_B) * (T::one() / period);
+        self.joint_momentum_B = joint_momentum_B;
+        self.coasting = matches!(reference, ArmReference::Coast);
         if self.coasting {
-            return Told::nothing(self.now, end.M_B);
+            return ControlOutput::nothing(self.now, end.M_B);
         }
         let inertia = (end.M_B, reaction_B);
         let at = (sensed, &self.middle, &mut self.forces);
-        let told = told(robot, setup, at, (&now, &self.now), inertia, tool_wrench_E);
-        Told { rate_share, ..told }
+        let output = control_law(robot, setup, at, (&now, &self.now), inertia, tool_wrench_E);
+        ControlOutput { rate_share, ..output }
     }
 
     /// The vehicle as the law believes it to be, and to move.
@@ -279,30 +286,32 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         &mut self,
         robot: &Robot<T, J>,
         setup: &Setup<T, J>,
-        asked: &Asked<T, J>,
+        reference: &ArmReference<T, J>,
         began: (&Belief<T, J>, &ResolvedMotion<T, J>),
     ) -> (PeriodEnd<T>, T) {
         let still = [T::zero(); J];
-        let end = match asked {
-            Asked::Tool { reference, axes, gain, gain_rate } => {
+        let end = match reference {
+            ArmReference::Tool { reference, axes, gain, gain_rate } => {
                 (self.reference, self.axes) = (*reference, *axes);
                 let joints = JointUse { gain: *gain, gain_rate: *gain_rate, ..setup.joints };
                 let found = self.follow_tool(robot, setup, &joints);
                 self.correct_joints(robot, began, setup.tuning.period);
                 return found;
             }
-            Asked::Joints(at) => {
+            ArmReference::Joints(at) => {
                 self.belief.q = at.q;
-                self.answer_and_rest(robot, setup, &at.v, &at.vdot)
+                self.base_response_and_rest(robot, setup, &at.v, &at.vdot)
             }
-            Asked::Rates { qdot, qddot } => self.answer_and_rest(robot, setup, qdot, qddot),
-            Asked::Still => {
+            ArmReference::Rates { qdot, qddot } => {
+                self.base_response_and_rest(robot, setup, qdot, qddot)
+            }
+            ArmReference::Still => {
                 self.belief.q = self.now.map(|s| s.position);
-                self.answer(robot, setup, &still, &still).0
+                self.base_response(robot, setup, &still, &still).0
             }
-            Asked::Coast => {
+            ArmReference::Coast => {
                 let rates = self.motion.rate.qdot;
-                self.answer(robot, setup, &rates, &still).0
+                self.base_response(robot, setup, &rates, &still).0
             }
         };
         (end, T::one())
@@ -329,11 +338,11 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
             self.reference.X_NE.translation - X.translation,
         );
         let back = setup.tuning.tool_gain;
-        let surprise = self.surprise_at_tool(&X);
+        let innovation = self.innovation_at_tool(&X);
         let wanted = WantedMotion {
             V_NE: self.reference.V_NE_N + error * back,
-            // The error dies out as it is told to, but for what the law did not expect of the base.
-            Vdot_NE: self.reference.Vdot_NE_N - (error * back + surprise) * back,
+            // The error decays at the tool gain, but for the innovation of the base.
+            Vdot_NE: self.reference.Vdot_NE_N - (error * back + innovation) * back,
         };
         let to = Assignment { axes: self.axes, ..setup.assignment };
         let found = resolved_motion_in(robot, &to, &self.end, &self.belief, &wanted, joints);
@@ -343,13 +352,13 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
 
     /// Twist of the tool, at `X`, that the law did not expect.
     #[inline(always)]
-    fn surprise_at_tool(&self, X_NE: &Pose<T>) -> SpatialVelocity<T> {
+    fn innovation_at_tool(&self, X_NE: &Pose<T>) -> SpatialVelocity<T> {
         let X_NB = &self.belief.X_NB;
         match self.axes {
             Axes::Base => SpatialVelocity::zero(),
             Axes::Inertial => SpatialVelocity::new(
-                X_NB.rotation * self.surprise.angular,
-                X_NB.rotation * self.surprise.linear,
+                X_NB.rotation * self.innovation.angular,
+                X_NB.rotation * self.innovation.linear,
             )
             .shifted_by(X_NE.translation - X_NB.translation),
         }
@@ -390,7 +399,7 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
 
     /// The base answers joint motion that is given; and the pose of the tool in the base.
     #[inline(always)]
-    fn answer(
+    fn base_response(
         &mut self,
         robot: &Robot<T, J>,
         setup: &Setup<T, J>,
@@ -400,21 +409,21 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
         let law = setup.assignment.law;
         configure(robot, &self.belief.q, &mut self.end);
         let (at, belief) = ((&self.end, &mut self.forces), &self.belief);
-        self.motion = answered_motion_in(robot, law, at, belief, qdot, qddot);
+        self.motion = believed_base_response_in(robot, law, at, belief, qdot, qddot);
         let X_BE = self.end.posture.pose(robot, &setup.assignment.tool);
         (PeriodEnd::new(&self.end, qdot), X_BE)
     }
 
     /// The same, and the tool's reference stays where that brings it.
     #[inline(always)]
-    fn answer_and_rest(
+    fn base_response_and_rest(
         &mut self,
         robot: &Robot<T, J>,
         setup: &Setup<T, J>,
         qdot: &[T; J],
         qddot: &[T; J],
     ) -> PeriodEnd<T> {
-        let (end, X_BE) = self.answer(robot, setup, qdot, qddot);
+        let (end, X_BE) = self.base_response(robot, setup, qdot, qddot);
         self.axes = Axes::Inertial;
         self.reference = at_rest(self.belief.X_NB * X_BE);
         end
@@ -436,8 +445,8 @@ impl<T: Real> PeriodEnd<T> {
     }
     /// Angular momentum of the joints' motion on a base that does not turn (N·m·s, base axes).
     #[inline(always)]
-    fn swing_B(&self) -> Vec3<T> {
-        swing_B(&self.M_B, &self.h_rates_B)
+    fn joint_momentum_B(&self) -> Vec3<T> {
+        joint_momentum_B(&self.M_B, &self.h_rates_B)
     }
 }
 

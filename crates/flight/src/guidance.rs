@@ -1,21 +1,21 @@
-//! What is asked of the arm: phases one after the other, and the path of the current one. It decides, so
+//! References of the arm: phases one after the other, and the path of the current one. It decides, so
 //! it takes single numbers.
 
+use crate::allocation::{NoPostureUnloading, PostureUnloadingUse, ToolTask, unload_by_posture};
 use crate::carried_rates::{CarriedRates, FADE, to_rest};
-use crate::computer::Setup;
-use crate::control_period::{Asked, PeriodMemory, at_rest};
-use crate::door::{Axes, Grip};
+use crate::control_period::{ArmReference, PeriodMemory, at_rest};
+use crate::interface::{Axes, Grip};
 use crate::phase::{Held, JointTarget, Path, Phase};
 use crate::resolved_motion::Belief;
 use crate::sequence::{BadPhase, NoWay, Sequence};
-use crate::steering::{NoRelief, ReliefUse, ToolTask, posture_relief};
+use crate::setup::Setup;
 use crate::tool_pose::joints_for_tool;
 use crate::trajectory::ToolMotion;
 use wrasse_dynamics::{Robot, State, kinematics};
 use wrasse_spatial::{Pose, Quat, Scalar, SpatialForce};
 
-/// Time in which joints take up the rates that relieve the base (s).
-const RELIEF_APPROACH: f64 = 0.5;
+/// Time in which joints take up the rates that unload the base (s).
+const UNLOADING_APPROACH: f64 = 0.5;
 
 /// Phases and path.
 #[derive(Debug, Clone, Copy)]
@@ -28,13 +28,13 @@ pub struct Guidance<T, const J: usize> {
     drift: Option<ToolMotion<T>>,
     /// Whether the phase still has to begin, once the joints have come to rest.
     waits: bool,
-    /// Why the posture cannot relieve the base, if it was asked to.
-    pub(crate) no_relief: Option<NoRelief<T>>,
+    /// Why no change of posture unloads the base, if the phase is for that.
+    pub(crate) no_posture_unloading: Option<NoPostureUnloading<T>>,
 }
 
 /// A robot, how it is controlled, and what its control periods remember.
 #[derive(Debug, Clone, Copy)]
-pub struct Guided<'a, T, const J: usize> {
+pub struct GuidanceContext<'a, T, const J: usize> {
     /// The robot with what it holds.
     pub robot: &'a Robot<T, J>,
     /// How it is controlled.
@@ -53,7 +53,7 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
             carried: None,
             drift: None,
             waits: false,
-            no_relief: None,
+            no_posture_unloading: None,
         }
     }
 
@@ -77,31 +77,41 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
     ///
     /// # Errors
     /// If a phase begins whose numbers describe no motion.
-    pub fn begin(&mut self, of: &Guided<'_, T, J>) -> Result<Option<Grip>, BadPhase<T>> {
+    pub fn begin(
+        &mut self,
+        context: &GuidanceContext<'_, T, J>,
+    ) -> Result<Option<Grip>, BadPhase<T>> {
         if !self.sequence.is_over() {
             return Ok(None);
         }
-        let begun = self.begin_next(of);
+        let begun = self.begin_next(context);
         begun.map_err(|reason| BadPhase { phase: self.phase(), reason })
     }
 
-    /// What is asked of the period that comes. `F_E` is what pushes at the tool, at its origin in its
+    /// The reference of the coming period. `F_E` is what pushes at the tool, at its origin in its
     /// axes (N·m, N).
-    pub fn next(&mut self, of: &Guided<'_, T, J>, F_E: &SpatialForce<T>) -> Asked<T, J> {
-        let t = T::from_f64(f64::from(self.sequence.tick())) * of.setup.tuning.period;
-        self.asked(of, t, F_E)
+    pub fn next(
+        &mut self,
+        context: &GuidanceContext<'_, T, J>,
+        F_E: &SpatialForce<T>,
+    ) -> ArmReference<T, J> {
+        let t = T::from_f64(f64::from(self.sequence.tick())) * context.setup.tuning.period;
+        self.reference_at(context, t, F_E)
     }
 
     /// Begin the next phase, or the one that waits; what it tells the grip.
-    fn begin_next(&mut self, of: &Guided<'_, T, J>) -> Result<Option<Grip>, NoWay<T>> {
-        let period = of.setup.tuning.period;
+    fn begin_next(
+        &mut self,
+        context: &GuidanceContext<'_, T, J>,
+    ) -> Result<Option<Grip>, NoWay<T>> {
+        let period = context.setup.tuning.period;
         let waited = core::mem::take(&mut self.waits);
         let next = if waited { self.sequence.again() } else { self.sequence.next() };
         let Some(phase) = next else {
             (self.path, self.carried) = (Path::Still(Held::Joints), None);
             return Ok(None);
         };
-        self.carried = self.carried_into(of, &phase).filter(|_| !waited);
+        self.carried = self.carried_into(context, &phase).filter(|_| !waited);
         self.drift = None;
         if let (Phase::MoveTool { .. }, Some(_)) = (phase, self.carried) {
             // A line of the tool begins at rest.
@@ -112,19 +122,21 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
         let mut grip = None;
         let (path, duration) = match phase {
             Phase::MoveTool { target, axes, timing } => {
-                let from = of.believed_tool(axes);
+                let from = context.believed_tool(axes);
                 let line = timing.line(from, &target)?;
                 (Path::Line(line, axes), line.duration())
             }
             Phase::MoveJoints { to, timing } => {
-                let way = timing.way(of.memory.belief.q, joint_target(of, to)?)?;
+                let way = timing.way(context.memory.belief.q, joint_target(context, to)?)?;
                 self.carried = self.carried.map(|carried| carried.within(way.duration()));
                 (Path::Joints(way), way.duration())
             }
             Phase::Hold { what, duration } => (Path::Still(what), duration),
-            Phase::Relieve { task, gain, duration } => (Path::Relief { task, gain }, duration),
-            Phase::Grip { told, keep } => {
-                grip = Some(told);
+            Phase::UnloadByPosture { task, gain, duration } => {
+                (Path::PostureUnloading { task, gain }, duration)
+            }
+            Phase::Grip { action, keep } => {
+                grip = Some(action);
                 (Path::Still(keep), period)
             }
         };
@@ -134,60 +146,72 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
     }
 
     /// The joints' motion as a phase begins, where its path does not go on with it: that of a tool goes
-    /// on with that of a tool, and what relieves the base begins with the rates that there are.
+    /// on with that of a tool, and unloading by posture begins with the rates that there are.
     fn carried_into(
         &self,
-        of: &Guided<'_, T, J>,
+        context: &GuidanceContext<'_, T, J>,
         phase: &Phase<T, J>,
     ) -> Option<CarriedRates<T, J>> {
         let goes_on = match phase {
             Phase::MoveTool { .. }
             | Phase::Hold { what: Held::Tool, .. }
             | Phase::Grip { keep: Held::Tool, .. } => self.follows_tool(),
-            Phase::Relieve { .. }
+            Phase::UnloadByPosture { .. }
             | Phase::Hold { what: Held::Nothing, .. }
             | Phase::Grip { keep: Held::Nothing, .. } => true,
             _ => false,
         };
-        let (q, v) = (of.memory.belief.q, of.memory.motion.rate.qdot);
+        let (q, v) = (context.memory.belief.q, context.memory.motion.rate.qdot);
         if goes_on { None } else { CarriedRates::of(q, v) }
     }
 
-    /// What is asked of the arm at time `t` (s) of the phase.
-    fn asked(&mut self, of: &Guided<'_, T, J>, t: T, F_E: &SpatialForce<T>) -> Asked<T, J> {
-        self.no_relief = None;
+    /// The arm's reference at time `t` (s) of the phase.
+    fn reference_at(
+        &mut self,
+        context: &GuidanceContext<'_, T, J>,
+        t: T,
+        F_E: &SpatialForce<T>,
+    ) -> ArmReference<T, J> {
+        self.no_posture_unloading = None;
         let slow = T::from_f64(2.0 * FADE);
         let carried = self.carried.filter(|carried| !carried.are_gone(t));
         match (self.path, carried) {
-            (Path::Line(line, axes), _) => self.on_tool(of, line.at(t), axes, t),
-            (Path::Still(Held::Nothing), _) => Asked::Coast,
-            (Path::Still(_), Some(carried)) => Asked::Joints(carried.to_rest(t)),
+            (Path::Line(line, axes), _) => self.on_tool(context, line.at(t), axes, t),
+            (Path::Still(Held::Nothing), _) => ArmReference::Coast,
+            (Path::Still(_), Some(carried)) => ArmReference::Joints(carried.to_rest(t)),
             (Path::Still(Held::Tool), None) if self.carried.is_some() && t <= slow => {
-                let reference = self.tool_to_rest(of, t);
-                self.on_tool(of, reference, Axes::Inertial, t)
+                let reference = self.tool_to_rest(context, t);
+                self.on_tool(context, reference, Axes::Inertial, t)
             }
-            (Path::Still(Held::Tool), None) => {
-                self.on_tool(of, at_rest(of.memory.reference.X_NE), of.memory.axes, t)
+            (Path::Still(Held::Tool), None) => self.on_tool(
+                context,
+                at_rest(context.memory.reference.X_NE),
+                context.memory.axes,
+                t,
+            ),
+            (Path::Still(Held::Joints), None) => ArmReference::Still,
+            (Path::Joints(path), None) => ArmReference::Joints(path.at(t)),
+            (Path::Joints(path), Some(carried)) => {
+                ArmReference::Joints(carried.beside(&path.at(t), t))
             }
-            (Path::Still(Held::Joints), None) => Asked::Still,
-            (Path::Joints(path), None) => Asked::Joints(path.at(t)),
-            (Path::Joints(path), Some(carried)) => Asked::Joints(carried.beside(&path.at(t), t)),
-            (Path::Relief { task, gain }, _) => {
-                let (qdot, qddot) = self.relieve(of, task, gain, t, F_E);
-                Asked::Rates { qdot, qddot }
+            (Path::PostureUnloading { task, gain }, _) => {
+                let (qdot, qddot) = self.unload_by_posture(context, task, gain, t, F_E);
+                ArmReference::Rates { qdot, qddot }
             }
         }
     }
 
     /// Joints that stand carry the tool on with a base that moves: at time `t` (s) of the phase, on its
     /// way to rest in inertial space.
-    fn tool_to_rest(&mut self, of: &Guided<'_, T, J>, t: T) -> ToolMotion<T> {
+    fn tool_to_rest(&mut self, context: &GuidanceContext<'_, T, J>, t: T) -> ToolMotion<T> {
         let fade = T::from_f64(FADE);
         let drift = *self.drift.get_or_insert_with(|| {
-            let state = of.memory.believed_state();
-            let k = kinematics(of.robot, &state);
-            let (X_NE, V_NE_N) =
-                (k.pose(&of.setup.assignment.tool), k.velocity(&of.setup.assignment.tool));
+            let state = context.memory.believed_state();
+            let k = kinematics(context.robot, &state);
+            let (X_NE, V_NE_N) = (
+                k.pose(&context.setup.assignment.tool),
+                k.velocity(&context.setup.assignment.tool),
+            );
             ToolMotion { V_NE_N, ..at_rest(X_NE) }
         });
         let (rate, way, acceleration) = to_rest((t - fade) / fade);
@@ -204,16 +228,16 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
     /// the speed of a quintic does, `30 s² (1 - s)²`, for rates that jumped would ask for any torque.
     fn on_tool(
         &self,
-        of: &Guided<'_, T, J>,
+        context: &GuidanceContext<'_, T, J>,
         reference: ToolMotion<T>,
         axes: Axes,
         t: T,
-    ) -> Asked<T, J> {
-        let (c, gain) = (T::from_f64, of.setup.joints.gain);
-        let duration = self.sequence.duration(of.setup.tuning.period);
+    ) -> ArmReference<T, J> {
+        let (c, gain) = (T::from_f64, context.setup.joints.gain);
+        let duration = self.sequence.duration(context.setup.tuning.period);
         let s = t / duration;
         let rest = T::one() - s;
-        Asked::Tool {
+        ArmReference::Tool {
             reference,
             axes,
             gain: gain * c(30.0) * s * s * rest * rest,
@@ -221,34 +245,35 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
         }
     }
 
-    /// Joint rates and accelerations at time `t` (s) that lower what the push at the tool asks of the
-    /// base: what would be best is approached, and left in time before the phase ends, for rates that
+    /// Joint rates and accelerations at time `t` (s) that lower the momentum that the push at the tool
+    /// puts into the base: the best rates are approached, and left in time before the phase ends, for rates that
     /// jumped would ask for any torque.
-    fn relieve(
+    fn unload_by_posture(
         &mut self,
-        of: &Guided<'_, T, J>,
+        context: &GuidanceContext<'_, T, J>,
         task: ToolTask,
         gain: T,
         t: T,
         F_E: &SpatialForce<T>,
     ) -> ([T; J], [T; J]) {
-        let period = of.setup.tuning.period;
-        let Belief { X_NB, q, .. } = of.memory.predicted(of.robot, period);
-        let state = State { X_NB, q, ..of.memory.believed_state() };
-        let approach = T::from_f64(RELIEF_APPROACH);
+        let period = context.setup.tuning.period;
+        let Belief { X_NB, q, .. } = context.memory.predicted(context.robot, period);
+        let state = State { X_NB, q, ..context.memory.believed_state() };
+        let approach = T::from_f64(UNLOADING_APPROACH);
         let left = self.sequence.duration(period) - t;
-        let k = kinematics(of.robot, &state);
-        let R_NE = k.pose(&of.setup.assignment.tool).rotation;
+        let k = kinematics(context.robot, &state);
+        let R_NE = k.pose(&context.setup.assignment.tool).rotation;
         let F_N = SpatialForce::new(R_NE * F_E.torque, R_NE * F_E.force);
-        let joints = ReliefUse { task, gain, rate_limit: of.setup.joints.rate_limit };
+        let joints =
+            PostureUnloadingUse { task, gain, rate_limit: context.setup.joints.rate_limit };
         let mut best = [T::zero(); J];
-        match posture_relief(&k, &of.setup.assignment.tool, &F_N, &joints) {
-            Ok(relief) if left > approach * T::from_f64(6.0) => best = relief.qdot,
+        match unload_by_posture(&k, &context.setup.assignment.tool, &F_N, &joints) {
+            Ok(unloading) if left > approach * T::from_f64(6.0) => best = unloading.qdot,
             Ok(_) => {}
-            Err(reason) => self.no_relief = Some(reason),
+            Err(reason) => self.no_posture_unloading = Some(reason),
         }
         let (mut qdot, mut qddot) = (state.v, [T::zero(); J]);
-        for j in of.robot.joints() {
+        for j in context.robot.joints() {
             qddot[j] = (best[j] - qdot[j]) / approach;
             qdot[j] += qddot[j] * period;
         }
@@ -256,7 +281,7 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
     }
 }
 
-impl<T: Scalar, const J: usize> Guided<'_, T, J> {
+impl<T: Scalar, const J: usize> GuidanceContext<'_, T, J> {
     /// Pose of the tool as it is believed to be.
     pub(crate) fn believed_tool(&self, axes: Axes) -> Pose<T> {
         let belief = &self.memory.belief;
@@ -271,16 +296,16 @@ impl<T: Scalar, const J: usize> Guided<'_, T, J> {
 
 /// Joint positions (rad or m) to go to.
 fn joint_target<T: Scalar, const J: usize>(
-    of: &Guided<'_, T, J>,
+    context: &GuidanceContext<'_, T, J>,
     to: JointTarget<T, J>,
 ) -> Result<[T; J], NoWay<T>> {
-    let q = of.memory.belief.q;
+    let q = context.memory.belief.q;
     match to {
         JointTarget::Positions(to) => Ok(core::array::from_fn(|j| to[j].unwrap_or(q[j]))),
         JointTarget::Tool(X, axes) => {
-            let (tool, law) = (&of.setup.assignment.tool, of.setup.assignment.law);
-            let state = State { X_NB: of.memory.belief.X_NB, q, ..State::default() };
-            joints_for_tool(of.robot, tool, &state, &X, axes, law, &of.setup.limits)
+            let (tool, law) = (&context.setup.assignment.tool, context.setup.assignment.law);
+            let state = State { X_NB: context.memory.belief.X_NB, q, ..State::default() };
+            joints_for_tool(context.robot, tool, &state, &X, axes, law, &context.setup.limits)
                 .map_err(NoWay::Unreachable)
         }
     }

@@ -32,9 +32,9 @@ impl<T: Scalar, const J: usize> JointEstimator<T, J> {
         for j in 0..J {
             let a = acceleration[j] * period;
             let foreseen = self.q[j] + (self.v[j] + a * T::from_f64(0.5)) * period;
-            let surprise = q_read[j] - foreseen;
-            self.q[j] = foreseen + surprise * alpha;
-            self.v[j] += a + surprise * beta_per_time;
+            let innovation = q_read[j] - foreseen;
+            self.q[j] = foreseen + innovation * alpha;
+            self.v[j] += a + innovation * beta_per_time;
         }
         (self.q, self.v)
     }

@@ -24,7 +24,7 @@ impl ArmLaw {
     }
 }
 
-/// What the attitude control is told of the arm's motion before it is felt.
+/// Feedforward of the arm's motion to the attitude control, before its reaction is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Feedforward {
     /// The exact torque.

@@ -2,14 +2,14 @@
 #![no_std]
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
+pub mod allocation;
 pub mod inverse_kinematics;
-pub mod steering;
 pub mod trajectory;
 
-mod answered_motion;
 mod attitude_control;
 mod attitude_estimator;
 mod base_control;
+mod believed_base_response;
 mod carried_rates;
 mod checked_period;
 mod computed_torque;
@@ -18,10 +18,10 @@ mod computer_answers;
 mod control_period;
 mod coupling_inertia;
 mod damped_inverse;
-mod door;
 mod error_covariance;
 mod feedforward;
 mod guidance;
+mod interface;
 mod joint_estimator;
 mod law;
 mod navigation;
@@ -30,31 +30,33 @@ mod period_command;
 mod phase;
 mod resolved_motion;
 mod sequence;
+mod setup;
 mod tool_pose;
 mod tool_wrench;
 
-pub use answered_motion::answered_motion;
 pub use attitude_control::attitude_acceleration;
 pub use attitude_estimator::{AttitudeEstimate, AttitudeEstimator, EstimatorSetup, TRACKER_MEMORY};
-pub use base_control::{Actuation, BaseControlSetup, PositionHold};
+
+pub use believed_base_response::believed_base_response;
 pub use checked_period::{PeriodFault, checked_period};
 pub use computed_torque::computed_torque;
-pub use computer::{FlightComputer, Setup};
-pub use control_period::{Asked, PeriodMemory, control_period};
+pub use computer::FlightComputer;
+pub use control_period::{ArmReference, PeriodMemory, control_period};
 pub use coupling_inertia::CouplingInertia;
-pub use door::{Axes, BaseReading, Command, Grip, JointReading, Sensed};
 pub use feedforward::feedforward_torque;
-pub use guidance::{Guidance, Guided};
+pub use guidance::{Guidance, GuidanceContext};
+pub use interface::{Axes, BaseReading, Command, Grip, JointReading, Sensed};
 pub use joint_estimator::JointEstimator;
 pub use law::{ArmLaw, Feedforward, Measurement, Task, Tuning};
 pub use navigation::{Navigation, NavigationSetup};
-pub use period_bounds::{OutOfBounds, Quantity, check_asked, check_reading};
-pub use period_command::Told;
+pub use period_bounds::{OutOfBounds, Quantity, check_reading, check_reference};
+pub use period_command::ControlOutput;
 pub use phase::{Held, JointTarget, JointTiming, PHASES, Phase, Target, Timing};
 pub use resolved_motion::{
     Assignment, Belief, JointUse, Resolved, ResolvedMotion, WantedMotion, joint_rates,
     resolved_motion, task_jacobian,
 };
 pub use sequence::{BadPhase, LONGEST, NoWay};
+pub use setup::{Actuation, BaseControlSetup, PositionHold, Setup};
 pub use tool_pose::{Unreachable, joints_for_tool};
 pub use tool_wrench::against_tool_wrench;

@@ -1,7 +1,7 @@
 //! From what the sensors say to the state that the laws work on.
 
 use crate::attitude_estimator::{AttitudeEstimate, AttitudeEstimator, EstimatorSetup};
-use crate::door::{BaseReading, JointReading, Sensed};
+use crate::interface::{BaseReading, JointReading, Sensed};
 use crate::joint_estimator::JointEstimator;
 use wrasse_dynamics::State;
 use wrasse_spatial::{Pose, Quat, Real, Scalar, SpatialVelocity};
@@ -44,7 +44,7 @@ impl<T: Scalar, const J: usize> Navigation<T, J> {
         }
     }
 
-    /// The state that these readings speak of. `qddot` is what the joints were asked to do over the
+    /// The state that these readings speak of. `qddot` is the commanded acceleration over the
     /// last `period` (s).
     pub fn estimate(&mut self, sensed: &Sensed<T, J>, qddot: &[T; J], period: T) -> State<T, J> {
         let (X_NB, V_NB_B) = self.base(&sensed.base, period);

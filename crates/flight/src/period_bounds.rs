@@ -1,7 +1,7 @@
 //! Bounds of what goes into a control period. What lies beyond them no sensor says and no plan asks; it
 //! is a fault of a word, and is refused before it is flown.
 
-use crate::control_period::Asked;
+use crate::control_period::ArmReference;
 use crate::trajectory::ToolMotion;
 use wrasse_dynamics::State;
 use wrasse_spatial::{Pose, Scalar, SpatialForce, SpatialVelocity};
@@ -119,17 +119,20 @@ pub fn check_reading<T: Scalar, const J: usize>(
     bounded(Quantity::ToolForce, F_E.force.to_array())
 }
 
-/// What is asked of a robot with so many joints.
+/// The reference of a robot with so many joints.
 ///
 /// # Errors
 /// The first number that is not finite or beyond its bound.
-pub fn check_asked<T: Scalar, const J: usize>(
-    asked: &Asked<T, J>,
+pub fn check_reference<T: Scalar, const J: usize>(
+    reference: &ArmReference<T, J>,
     joints: usize,
 ) -> Result<(), OutOfBounds<T>> {
-    match asked {
-        Asked::Tool {
-            reference: ToolMotion { X_NE, V_NE_N, Vdot_NE_N }, gain, gain_rate, ..
+    match reference {
+        ArmReference::Tool {
+            reference: ToolMotion { X_NE, V_NE_N, Vdot_NE_N },
+            gain,
+            gain_rate,
+            ..
         } => {
             check_pose(X_NE)?;
             check_velocity(V_NE_N)?;
@@ -138,16 +141,16 @@ pub fn check_asked<T: Scalar, const J: usize>(
             bounded(Quantity::PostureGain, [*gain])?;
             bounded(Quantity::PostureGainRate, [*gain_rate])
         }
-        Asked::Joints(at) => {
+        ArmReference::Joints(at) => {
             bounded(Quantity::JointPosition, at.q.into_iter().take(joints))?;
             bounded(Quantity::JointRate, at.v.into_iter().take(joints))?;
             bounded(Quantity::JointAcceleration, at.vdot.into_iter().take(joints))
         }
-        Asked::Rates { qdot, qddot } => {
+        ArmReference::Rates { qdot, qddot } => {
             bounded(Quantity::JointRate, qdot.iter().copied().take(joints))?;
             bounded(Quantity::JointAcceleration, qddot.iter().copied().take(joints))
         }
-        Asked::Still | Asked::Coast => Ok(()),
+        ArmReference::Still | ArmReference::Coast => Ok(()),
     }
 }
 

@@ -1,25 +1,25 @@
-//! What the actuators are told between two sets of set-points.
+//! The control law: commands of the actuators between two sets of set-points.
 
 use crate::attitude_control::attitude_acceleration;
-use crate::base_control::Actuation;
 use crate::computed_torque::{joint_feedback, law_effort};
-use crate::computer::Setup;
 use crate::coupling_inertia::CouplingInertia;
 use crate::feedforward::feedforward_torque;
 use crate::law::{ArmLaw, Feedforward};
+use crate::setup::Actuation;
+use crate::setup::Setup;
 use crate::tool_wrench::against_tool_wrench;
 use wrasse_dynamics::{Configuration, InverseDynamics, Robot, State};
 use wrasse_hardware::{SetPoint, SetPointMotion};
 use wrasse_spatial::{Quat, Real, SpatialForce, SpatialInertia, Vec3};
 
-/// What a control period tells the actuators of the arm, and what it asks of those of the base.
+/// Output of the control law: commands of the arm's drives, and the torque that the base needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Told<T, const J: usize> {
+pub struct ControlOutput<T, const J: usize> {
     /// Where each joint should be at the end of the period.
     pub set_points: [SetPoint<T>; J],
     /// Torque (N·m) or force (N) of each joint that the law asks for, before limits.
-    pub effort_asked: [T; J],
-    /// The same within the limits: what the drives are told over the period.
+    pub effort_commanded: [T; J],
+    /// The same within the limits: the command of the drives over the period.
     pub effort: [T; J],
     /// Torque that the base should feel over the period, base axes (N·m).
     pub attitude_torque_B: Vec3<T>,
@@ -33,14 +33,14 @@ pub struct Told<T, const J: usize> {
     pub coupling: CouplingInertia<T, J>,
 }
 
-impl<T: Real, const J: usize> Told<T, J> {
+impl<T: Real, const J: usize> ControlOutput<T, J> {
     /// No torque and no force.
     #[inline(always)]
     pub(crate) fn nothing(set_points: [SetPoint<T>; J], M_B: SpatialInertia<T>) -> Self {
         let (none, effort) = (Vec3::zero(), [T::zero(); J]);
         Self {
             set_points,
-            effort_asked: effort,
+            effort_commanded: effort,
             effort,
             attitude_torque_B: none,
             ahead_force_B: none,
@@ -70,11 +70,11 @@ impl<T: Real, const J: usize> Told<T, J> {
         let change = self.coupling.effort(self.M_B.central().solve(lack_B));
         let mut share = T::one();
         for j in robot.joints() {
-            self.effort_asked[j] -= change[j];
+            self.effort_commanded[j] -= change[j];
             if let Some(limit) = effort_limit(setup, j) {
-                let (falls, asked) = (T::zero().lt(change[j]), change[j].abs());
+                let (falls, reference) = (T::zero().lt(change[j]), change[j].abs());
                 let left = T::select(falls, limit + self.effort[j], limit - self.effort[j]);
-                let part = T::select(left.lt(asked), left.max(T::zero()) / asked, T::one());
+                let part = T::select(left.lt(reference), left.max(T::zero()) / reference, T::one());
                 share = share.min(part);
             }
         }
@@ -92,8 +92,8 @@ impl<T: Real, const J: usize> Told<T, J> {
     /// motion that no drive can give is turned.
     #[inline(always)]
     fn within_limits(mut self, robot: &Robot<T, J>, setup: &Setup<T, J>) -> Self {
-        let share = share_within_limits(robot, setup, &self.effort_asked);
-        self.effort = self.effort_asked.map(|tau| tau * share);
+        let share = share_within_limits(robot, setup, &self.effort_commanded);
+        self.effort = self.effort_commanded.map(|tau| tau * share);
         self.attitude_torque_B = self.attitude_torque_B * share;
         self
     }
@@ -103,17 +103,17 @@ impl<T: Real, const J: usize> Told<T, J> {
 /// the period: those of its middle are right on average, and for the base so is `reaction_B`, what the
 /// joints' angular momentum gains over the period per time (N·m), whose impulse is exact.
 ///
-/// The base is told of the joints' feedback too: an arm law that counts on a base whose attitude is
+/// The joints' feedback is fed forward to the base too: an arm law that counts on a base whose attitude is
 /// held gets its accelerations only if the base is held against all of them.
 #[inline(always)]
-pub(crate) fn told<T: Real, const J: usize>(
+pub(crate) fn control_law<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     setup: &Setup<T, J>,
     (sensed, at, forces): (&State<T, J>, &Configuration<T, J>, &mut InverseDynamics<T, J>),
     (now, next): (&[SetPoint<T>; J], &[SetPoint<T>; J]),
     (M_B, reaction_B): (SpatialInertia<T>, Vec3<T>),
     tool_wrench_E: Option<&SpatialForce<T>>,
-) -> Told<T, J> {
+) -> ControlOutput<T, J> {
     let (tuning, law) = (&setup.tuning, setup.assignment.law);
     let Middle { state: ahead, set_points: middle, acceleration } =
         Middle::new(robot, tuning.period, sensed, now, next);
@@ -122,7 +122,7 @@ pub(crate) fn told<T: Real, const J: usize>(
     let mut effort = law_effort(robot, law, (at, forces), (&ahead.V_NB_B, &ahead.v), &qddot);
     let coupling = CouplingInertia::of(&at.base);
     let feedback_B = coupling.reaction(&driven_feedback(robot, setup, back));
-    // What holds the base against the joints as they are asked to move.
+    // What holds the base against the commanded motion of the joints.
     let mut holding_B = reaction_B + feedback_B;
     let fed_forward_B = match setup.base.feedforward {
         // Pulses that come late for the joints' feedback would feed it. The joints do without.
@@ -154,11 +154,11 @@ pub(crate) fn told<T: Real, const J: usize>(
         effort[j] += with_base[j];
     }
     let (set_points, ahead_force_B) = (*next, ahead_B.force);
-    let effort_asked = effort;
+    let effort_commanded = effort;
     let rate_share = T::one();
-    Told {
+    ControlOutput {
         set_points,
-        effort_asked,
+        effort_commanded,
         effort,
         attitude_torque_B,
         ahead_force_B,
@@ -248,8 +248,8 @@ fn share_within_limits<T: Real, const J: usize>(
     share
 }
 
-/// Largest torque or force of a drive that is told one (N·m, N); those that follow their set-points are
-/// told none.
+/// Largest torque or force of a drive that is commanded one (N·m, N); those that follow their
+/// set-points are not.
 #[inline(always)]
 fn effort_limit<T: Real, const J: usize>(setup: &Setup<T, J>, j: usize) -> Option<T> {
     setup.limits[j].effort.filter(|_| !setup.position_driven[j])

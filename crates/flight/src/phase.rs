@@ -1,7 +1,7 @@
 //! Phases of a mission, as the flight computer knows them.
 
-use crate::door::{Axes, Grip};
-use crate::steering::ToolTask;
+use crate::allocation::ToolTask;
+use crate::interface::{Axes, Grip};
 use crate::trajectory::{
     BadNumbers, JointMove, MotionLimits, Profile, ProfileShape, Quintic, StraightLine, ToolWay,
 };
@@ -29,7 +29,7 @@ pub enum Phase<T, const J: usize> {
         /// How fast; limits are those of each joint.
         timing: JointTiming<T, J>,
     },
-    /// Nothing new is asked.
+    /// The reference stays.
     Hold {
         /// What stays.
         what: Held,
@@ -37,7 +37,7 @@ pub enum Phase<T, const J: usize> {
         duration: T,
     },
     /// The arm moves so that what pushes at the tool asks the base to store less, without turning it.
-    Relieve {
+    UnloadByPosture {
         /// What of the tool must stay.
         task: ToolTask,
         /// Rate at which what can be lowered fades (1/s).
@@ -47,8 +47,8 @@ pub enum Phase<T, const J: usize> {
     },
     /// The grip takes or lets go of something at the end of one control period.
     Grip {
-        /// What it is told.
-        told: Grip,
+        /// What the grip does.
+        action: Grip,
         /// What stays meanwhile.
         keep: Held,
     },
@@ -124,7 +124,7 @@ pub enum JointTiming<T, const J: usize> {
 pub(crate) enum Path<T, const J: usize> {
     Line(StraightLine<T>, Axes),
     Joints(JointMove<T, J>),
-    Relief { task: ToolTask, gain: T },
+    PostureUnloading { task: ToolTask, gain: T },
     Still(Held),
 }
 

@@ -12,7 +12,7 @@ use wrasse_spatial::{
     At, Mat3, Pose, Real, SpatialAcceleration, SpatialMomentum, SpatialVelocity, Vec3,
 };
 
-/// What is asked of the arm: which point, in which axes, how much of its motion, by which law.
+/// The arm's assignment: which point, in which axes, how much of its motion, by which law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Assignment<T> {
     /// The tool.

@@ -92,7 +92,7 @@ impl<T: Scalar, const J: usize> Sequence<T, J> {
             let longest = T::from_f64(f64::from(LONGEST)) * period;
             return Err(NoWay::TooLong { duration, longest });
         }
-        // The cast saturates; a duration that is no number was refused before.
+        // The cast saturates; a NaN duration was refused before.
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "rounds up")]
         let whole = count.max(0.0) as u32;
         self.length = if f64::from(whole) < count { whole + 1 } else { whole.max(1) };

@@ -1,7 +1,7 @@
 //! Joint positions for a tool pose: in closed form where the arm allows it, by damped least squares
 //! otherwise.
 
-use crate::door::Axes;
+use crate::interface::Axes;
 use crate::inverse_kinematics::{
     Anchor, Attempt, ClosedForm, DampedLeastSquares, DampedOutcome, SphericalRevoluteSpherical,
     damped_least_squares,

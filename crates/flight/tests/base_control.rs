@@ -5,17 +5,17 @@
 #[path = "inverse_kinematics/arms.rs"]
 #[allow(dead_code, reason = "the inverse kinematics asks more of the same arms")]
 mod arms;
-#[path = "steering/bench.rs"]
+#[path = "allocation/bench.rs"]
 #[allow(dead_code, reason = "the steering asks more of the same bench")]
 mod bench;
 #[path = "laws/flights.rs"]
 #[allow(dead_code, reason = "the laws ask more of the same flights")]
 mod flights;
 
-use bench::{actuators, gyros, thrusters};
+use bench::{actuators, cmgs, thrusters};
 use flights::{PERIOD, aside, at_rest, drifting, robot, setup};
 use wrasse_dynamics::{Robot, State, kinematics, mass_matrix, momentum};
-use wrasse_flight::steering::SteeringSetup;
+use wrasse_flight::allocation::AllocationSetup;
 use wrasse_flight::{
     Actuation, ArmLaw, Axes, BaseControlSetup, Command, FlightComputer, Held, Measurement, Phase,
     PositionHold, Sensed, Setup, against_tool_wrench,
@@ -28,12 +28,13 @@ const HOLD: PositionHold<f64> = PositionHold { bandwidth: 0.1, damping: 0.8 };
 /// The attitude and the place at the start are kept by these actuators.
 fn with(all: &Actuators<f64>, position_hold: Option<PositionHold<f64>>) -> Setup<f64, 7> {
     let plain = setup::<f64>(ArmLaw::AttitudeHeld, Measurement::Base);
-    let steering = SteeringSetup { holds_position: position_hold.is_some(), ..bench::setup(all) };
+    let allocator =
+        AllocationSetup { holds_position: position_hold.is_some(), ..bench::setup(all) };
     let quat_ND = Quat::from_matrix(&at_rest().X_NB.rotation);
     let base = BaseControlSetup {
         quat_ND,
         position_hold,
-        actuation: Actuation::Fitted(steering),
+        actuation: Actuation::Fitted(allocator),
         ..plain.base
     };
     Setup { base, ..plain }
@@ -63,14 +64,14 @@ fn pushed(state: &State<f64, 7>, by_N: Vec3<f64>) -> State<f64, 7> {
 /// base axes, nothing else. Measured 3.1e-15 N off, of 20.
 #[test]
 fn the_centre_of_mass_is_pulled_home_and_braked() {
-    let all = actuators(&[], &gyros(), &thrusters(22.0));
+    let all = actuators(&[], &cmgs(), &thrusters(22.0));
     let mut computer = FlightComputer::new(with(&all, Some(HOLD)), &robot(), &held());
     let first = step(&mut computer, &at_rest(), None);
-    assert!(first.steering.wanted.force.norm() < 1e-12, "at home");
+    assert!(first.allocation.wanted.force.norm() < 1e-12, "at home");
     let by_N = vec3(0.3, -0.2, 0.5);
     let mut state = pushed(&at_rest(), by_N);
     state.V_NB_B = SpatialVelocity::from_array([0.0, 0.0, 0.0, 0.02, -0.03, 0.01]);
-    let got = step(&mut computer, &state, None).steering.wanted.force;
+    let got = step(&mut computer, &state, None).allocation.wanted.force;
     let v_N = state.X_NB.rotation * state.V_NB_B.linear;
     let mass = robot().mass();
     let (stiffness, damping) = (0.1 * 0.1, 2.0 * 0.8 * 0.1);
@@ -83,7 +84,7 @@ fn the_centre_of_mass_is_pulled_home_and_braked() {
 /// push. Measured no force at all.
 #[test]
 fn a_release_does_not_move_the_home() {
-    let all = actuators(&[], &gyros(), &thrusters(22.0));
+    let all = actuators(&[], &cmgs(), &thrusters(22.0));
     let mut computer = FlightComputer::new(with(&all, Some(HOLD)), &robot(), &held());
     let empty = arms::atlas_class().0;
     let state = at_rest();
@@ -91,11 +92,11 @@ fn a_release_does_not_move_the_home() {
     let jump = centre_of_mass(&empty, &state) - centre_of_mass(&robot(), &state);
     assert!(jump.norm() > 0.1, "{jump:?} m");
     computer.robot_changed(&empty);
-    let force = step(&mut computer, &state, None).steering.wanted.force.norm();
+    let force = step(&mut computer, &state, None).allocation.wanted.force.norm();
     assert!(force < 1e-11, "{force:e} N");
     // And home is where it is from now on.
     let by_N = vec3(0.0, 0.4, 0.0);
-    let back = step(&mut computer, &pushed(&state, by_N), None).steering.wanted.force;
+    let back = step(&mut computer, &pushed(&state, by_N), None).allocation.wanted.force;
     let wanted = by_N.norm() * 0.1 * 0.1 * empty.mass();
     assert!((back.norm() - wanted).abs() < 1e-11, "{back:?}");
 }
@@ -107,7 +108,7 @@ fn centre_of_mass(robot: &Robot<f64, 7>, state: &State<f64, 7>) -> Vec3<f64> {
 /// What the force-torque sensor feels is stood against by joints and base, on top of all else.
 #[test]
 fn a_felt_wrench_reaches_joints_and_base() {
-    let setup = with(&actuators(&[], &gyros(), &[]), None);
+    let setup = with(&actuators(&[], &cmgs(), &[]), None);
     let mut ideal = setup;
     ideal.base.actuation = Actuation::Ideal(None);
     let F_E = SpatialForce::new(vec3(3.0, -7.0, 5.0), vec3(40.0, 200.0, -90.0));
@@ -127,14 +128,14 @@ fn a_felt_wrench_reaches_joints_and_base() {
     }
     for told in [
         commands[1].attitude_torque_B - commands[0].attitude_torque_B,
-        commands[1].steering.wanted.torque - commands[0].steering.wanted.torque,
+        commands[1].allocation.wanted.torque - commands[0].allocation.wanted.torque,
     ] {
         assert!((told - torque_B).norm() < 1e-11, "{told:?}, not {torque_B:?}");
     }
 }
 
-/// What gyros store of a tool move when they do as they are told, in either precision.
-fn gyro_angles<T: Scalar>(
+/// What CMGs store of a tool move when they do as they are told, in either precision.
+fn cmg_angles<T: Scalar>(
     setup: Setup<T, 7>,
     start: State<T, 7>,
     phases: &[Phase<T, 7>],
@@ -156,13 +157,13 @@ fn gyro_angles<T: Scalar>(
 /// measured up to 5.5e-5 rad aside.
 #[test]
 fn single_precision_turns_the_gimbals_alike() {
-    let all = actuators(&[], &gyros(), &[]);
+    let all = actuators(&[], &cmgs(), &[]);
     let wide = with(&all, None);
     let mut narrow = setup::<f32>(ArmLaw::AttitudeHeld, Measurement::Base);
     let quat_ND = wide.base.quat_ND;
     let quat = [quat_ND.w, quat_ND.x, quat_ND.y, quat_ND.z].map(<f32 as Real>::from_f64);
     narrow.base.quat_ND = Quat { w: quat[0], x: quat[1], y: quat[2], z: quat[3] };
-    narrow.base.actuation = Actuation::Fitted(single(wide.base.actuation.steering().unwrap()));
+    narrow.base.actuation = Actuation::Fitted(single(wide.base.actuation.allocation().unwrap()));
     let start = at_rest();
     let single_start = State {
         X_NB: wrasse_spatial::Pose::from_f64(&start.X_NB),
@@ -170,8 +171,8 @@ fn single_precision_turns_the_gimbals_alike() {
         q: start.q.map(<f32 as Real>::from_f64),
         v: [0.0; 7],
     };
-    let wide = gyro_angles(wide, start, &[aside(Axes::Inertial, 2.0)]);
-    let narrow = gyro_angles(narrow, single_start, &[aside(Axes::Inertial, 2.0_f32)]);
+    let wide = cmg_angles(wide, start, &[aside(Axes::Inertial, 2.0)]);
+    let narrow = cmg_angles(narrow, single_start, &[aside(Axes::Inertial, 2.0_f32)]);
     assert_eq!((wide.len(), narrow.len()), (200, 200));
     let (mut turned, mut apart) = (0.0_f64, 0.0_f64);
     for (wide, narrow) in wide.iter().zip(&narrow) {
@@ -185,30 +186,30 @@ fn single_precision_turns_the_gimbals_alike() {
 }
 
 /// The same steering in single precision: no thrusters, no unloading, the plainest laws.
-fn single(of: &SteeringSetup<f64>) -> SteeringSetup<f32> {
+fn single(of: &AllocationSetup<f64>) -> AllocationSetup<f32> {
     let c = <f32 as Real>::from_f64;
     let m = of.modulation;
-    SteeringSetup {
+    AllocationSetup {
         actuators: of.actuators.cast(),
-        wheels: wrasse_flight::steering::WheelLaw::default(),
-        gyros: wrasse_flight::steering::GyroLaw::default(),
-        modulation: wrasse_flight::steering::Modulation {
+        wheels: wrasse_flight::allocation::WheelLaw::default(),
+        cmgs: wrasse_flight::allocation::CmgLaw::default(),
+        modulation: wrasse_flight::allocation::Modulation {
             gain: c(m.gain),
             lag: c(m.lag),
             on_level: c(m.on_level),
             off_level: c(m.off_level),
         },
         holds_position: false,
-        unloading: None,
+        desaturation: None,
     }
 }
 
 /// Gimbals in closed loop with a base that turns as they make it: an error of attitude dies out. The
-/// sign of the torque through attitude law, steering, gyros and back is right, or it would grow.
+/// sign of the torque through attitude law, steering, CMGs and back is right, or it would grow.
 /// With bandwidth ω and critical damping `(1 + ωt) e^(-ωt)` is left: 0.0611 after 15 s. Measured 0.0612.
 #[test]
-fn an_error_of_attitude_dies_out_by_gyros() {
-    let all = actuators(&[], &gyros(), &[]);
+fn an_error_of_attitude_dies_out_by_cmgs() {
+    let all = actuators(&[], &cmgs(), &[]);
     let mut computer = FlightComputer::new(
         with(&all, None),
         &robot(),
@@ -226,11 +227,11 @@ fn an_error_of_attitude_dies_out_by_gyros() {
         .central();
     for _ in 0..1500 {
         let told = computer.step(&Sensed::perfect(&state, readings)).unwrap();
-        let before = all.gyro_momentum(&readings.gimbal_angle);
+        let before = all.cmg_momentum(&readings.gimbal_angle);
         for (angle, rate) in readings.gimbal_angle.iter_mut().zip(told.actuators.gimbal_rate) {
             *angle += rate * PERIOD;
         }
-        let gained = all.gyro_momentum(&readings.gimbal_angle) - before;
+        let gained = all.cmg_momentum(&readings.gimbal_angle) - before;
         let w = state.V_NB_B.angular;
         let torque = -gained * (1.0 / PERIOD) - w.cross(I * w + before);
         state.V_NB_B.angular += I.solve(torque) * PERIOD;
@@ -246,7 +247,7 @@ fn an_error_of_attitude_dies_out_by_gyros() {
 /// were booked.
 #[test]
 fn nothing_is_owed_for_a_coast() {
-    let all = actuators(&[], &gyros(), &[]);
+    let all = actuators(&[], &cmgs(), &[]);
     let phase = |what, periods: f64| Phase::Hold { what, duration: periods * PERIOD };
     let phases = [phase(Held::Joints, 2.0), phase(Held::Nothing, 5.0), phase(Held::Joints, 2.0)];
     let mut computer = FlightComputer::new(with(&all, None), &robot(), &phases);

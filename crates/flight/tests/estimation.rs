@@ -406,7 +406,7 @@ fn a_late_reading_and_its_noise_are_turned_into_the_present_axes() {
     assert!(off < 1e-3, "{off:e}");
 }
 
-/// Half a radian off, and once no number at all.
+/// Half a radian off, and once NaN.
 #[test]
 fn a_wild_reading_is_refused_counted_and_moves_nothing() {
     let mut truth = Truth::new(&setup(), 6);

@@ -5,7 +5,7 @@
 #[path = "inverse_kinematics/arms.rs"]
 #[allow(dead_code, reason = "the inverse kinematics asks more of the same arms")]
 mod arms;
-#[path = "steering/bench.rs"]
+#[path = "allocation/bench.rs"]
 #[allow(dead_code, reason = "the steering asks more of the same bench")]
 mod bench;
 #[path = "../../dynamics/tests/counting_allocator/mod.rs"]
@@ -18,16 +18,16 @@ use counting_allocator::allocations;
 use flights::{Flight, aside, at_rest, drifting, robot, setup};
 use std::hint::black_box;
 use wrasse_dynamics::kinematics;
-use wrasse_flight::steering::{
-    Damping, GyroLaw, GyroSharing, Steering, SteeringSetup, Unit, Waves, WheelLaw, WheelSharing,
-    gyro_rates, preferred_angles, wheel_torques,
+use wrasse_flight::allocation::{
+    AllocationSetup, Allocator, CmgLaw, CmgSharing, Damping, Unit, Waves, WheelLaw, WheelSharing,
+    cmg_rates, preferred_angles, wheel_torques,
 };
 use wrasse_flight::{
     Actuation, ArmLaw, Axes, BaseReading, EstimatorSetup, FlightComputer, Grip, Held, JointReading,
     JointTarget, JointTiming, Measurement, NavigationSetup, NoWay, Phase, PositionHold, Sensed,
 };
 use wrasse_hardware::{
-    ActuatorReadings, ControlMomentGyro, GYROS, RateGyro, ReactionWheel, StarTracker,
+    ActuatorReadings, CMGS, ControlMomentGyro, RateGyro, ReactionWheel, StarTracker,
     TrackerReading, WHEELS,
 };
 use wrasse_spatial::{Pose, Quat, SpatialForce, Vec3, vec3};
@@ -54,7 +54,7 @@ fn a_control_period_allocates_nothing() {
             aside(Axes::Inertial, 0.2),
             Phase::Hold { what: Held::Tool, duration: 0.1 },
             to_tool_pose(X),
-            Phase::Grip { told: Grip::Grasp(0), keep: Held::Joints },
+            Phase::Grip { action: Grip::Grasp(0), keep: Held::Joints },
             Phase::Hold { what: Held::Nothing, duration: 0.1 },
             Phase::Hold { what: Held::Joints, duration: 0.1 },
         ];
@@ -108,9 +108,9 @@ fn wheel_allocation_allocates_nothing() {
 
 /// Steering by each law, and the search for angles to start from.
 #[test]
-fn gyro_steering_allocates_nothing() {
+fn cmg_steering_allocates_nothing() {
     let mounted = [([0.8, 0.6], 1.0), ([-0.8, 0.6], -1.0)];
-    let gyros = mounted.map(|([x, z], y)| ControlMomentGyro {
+    let cmgs = mounted.map(|([x, z], y)| ControlMomentGyro {
         gimbal_axis_B: vec3(x, 0.0, z),
         spin_axis_B: vec3(0.0, y, 0.0),
         momentum: 15.0,
@@ -119,52 +119,52 @@ fn gyro_steering_allocates_nothing() {
     });
     let (damping, waves) = (Damping { k0: 0.01, fading: 10.0 }, Waves::default());
     for sharing in [
-        GyroSharing::PseudoInverse,
-        GyroSharing::SingularityRobust(damping),
-        GyroSharing::GeneralizedSingularityRobust(damping, waves),
+        CmgSharing::PseudoInverse,
+        CmgSharing::SingularityRobust(damping),
+        CmgSharing::GeneralizedSingularityRobust(damping, waves),
     ] {
-        let law = GyroLaw { sharing, null_gain: 0.1 };
-        let (wanted, angles) = (vec3(1.0, -2.0, 3.0), [0.3; GYROS]);
+        let law = CmgLaw { sharing, null_gain: 0.1 };
+        let (wanted, angles) = (vec3(1.0, -2.0, 3.0), [0.3; CMGS]);
         let calls = allocations(|| {
-            black_box(gyro_rates(&gyros, &[true; GYROS], &law, wanted, &angles, 1.5));
+            black_box(cmg_rates(&cmgs, &[true; CMGS], &law, wanted, &angles, 1.5));
         });
         assert_eq!(calls, 0, "{sharing:?}");
     }
     let calls = allocations(|| {
-        assert!(preferred_angles(&gyros, vec3(0.0, 1.0, 0.0)).is_some());
+        assert!(preferred_angles(&cmgs, vec3(0.0, 1.0, 0.0)).is_some());
     });
     assert_eq!(calls, 0);
 }
 
 /// Everything that turns or pushes the base, by the laws that work hardest.
-fn all_groups() -> SteeringSetup<f64> {
-    let all = bench::actuators(&bench::wheels(0.2), &bench::gyros(), &bench::thrusters(22.0));
+fn all_groups() -> AllocationSetup<f64> {
+    let all = bench::actuators(&bench::wheels(0.2), &bench::cmgs(), &bench::thrusters(22.0));
     let (damping, waves) = (Damping { k0: 0.01, fading: 10.0 }, Waves::default());
-    SteeringSetup {
+    AllocationSetup {
         wheels: WheelLaw { sharing: WheelSharing::MinimumPeak, null_gain: 0.1 },
-        gyros: GyroLaw {
-            sharing: GyroSharing::GeneralizedSingularityRobust(damping, waves),
+        cmgs: CmgLaw {
+            sharing: CmgSharing::GeneralizedSingularityRobust(damping, waves),
             null_gain: 0.1,
         },
-        unloading: Some(bench::unloading()),
+        desaturation: Some(bench::desaturation()),
         ..bench::setup(&all)
     }
 }
 
-/// More is wanted than there is, wheels and gyros are emptied, a wheel is lost, a reading is no number.
+/// More is wanted than there is, wheels and CMGs are desaturated, a wheel is lost, a reading is NaN.
 #[test]
 fn steering_all_groups_allocates_nothing() {
-    let mut steering = Steering::new(&all_groups());
-    let needs = bench::needs([30.0, -20.0, 10.0], [5.0, 0.0, -8.0]);
+    let mut allocator = Allocator::new(&all_groups());
+    let demand = bench::demand([30.0, -20.0, 10.0], [5.0, 0.0, -8.0]);
     let wheel_speed = [400.0, 600.0, -300.0, f64::NAN, 0.0, 0.0, 0.0, 0.0];
     let readings = ActuatorReadings { wheel_speed, ..ActuatorReadings::default() };
     let calls = allocations(|| {
         for _ in 0..20 {
-            assert!(black_box(steering.steer(&needs, &readings)).report.unloading);
+            assert!(black_box(allocator.allocate(&demand, &readings)).report.desaturation);
         }
-        steering.isolate(Unit::Wheel(0));
-        steering.rest();
-        black_box(steering.steer(&needs, &readings));
+        allocator.disable(Unit::Wheel(0));
+        allocator.reset();
+        black_box(allocator.allocate(&demand, &readings));
     });
     assert_eq!(calls, 0);
 }

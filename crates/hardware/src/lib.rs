@@ -1,11 +1,11 @@
-//! What is bolted on, as plain data: joint drives, wheels, gyros, thrusters, sensors, their limits. No
+//! What is bolted on, as plain data: joint drives, wheels, CMGs, thrusters, sensors, their limits. No
 //! heap, no `std`: the flight code and the simulated world read the same numbers.
 #![no_std]
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
 mod actuators;
 mod attitude_actuator;
-mod gyro;
+mod cmg;
 mod list;
 mod sensor;
 mod set_point;
@@ -14,7 +14,7 @@ mod wheel;
 
 pub use actuators::{ActuatorCommand, ActuatorReadings, Actuators};
 pub use attitude_actuator::{AttitudeActuator, AttitudeActuatorLimit};
-pub use gyro::{ControlMomentGyro, GYROS};
+pub use cmg::{CMGS, ControlMomentGyro};
 pub use list::List;
 pub use sensor::{RateGyro, Sensors, StarTracker, TrackerReading};
 pub use set_point::{SetPoint, SetPointMotion};

@@ -75,7 +75,7 @@ fn is_read(case: &Case, key: &str) -> bool {
         is_fitted
             && match group {
                 "wheels" | "wheel_null_gain_per_s" => !actuators.wheels.is_empty(),
-                "gyros" | "gyro_null_gain_rad_s" | "preferred_for" => !actuators.gyros.is_empty(),
+                "cmgs" | "cmg_null_gain_rad_s" | "preferred_for" => !actuators.cmgs.is_empty(),
                 "modulation" => !actuators.thrusters.is_empty(),
                 _ => true,
             }

@@ -6,13 +6,13 @@ use crate::observe::Observation;
 use crate::read_base::Turning;
 use std::array::from_fn;
 use wrasse_flight::Command;
-use wrasse_hardware::{ActuatorReadings, GYROS};
+use wrasse_hardware::{ActuatorReadings, CMGS};
 use wrasse_spatial::Vec3;
 use wrasse_vehicle::JOINTS;
 use wrasse_world::{BaseAttitude, World};
 
 /// What is asked of the joints' drives and of whatever turns the base.
-pub(crate) struct Asked {
+pub(crate) struct ActuatorDemand {
     /// Of each joint (N·m or N): what the law asks of a drive of torque; what it takes to move the
     /// others as they are moved.
     pub(crate) efforts: [f64; JOINTS],
@@ -22,7 +22,7 @@ pub(crate) struct Asked {
     pub(crate) torque_cut_B: Vec3<f64>,
 }
 
-impl Asked {
+impl ActuatorDemand {
     pub(crate) fn of(
         case: &Case,
         command: &Command<f64, JOINTS>,
@@ -32,7 +32,9 @@ impl Asked {
         let (rates, flown) = (&seen.state.v, &seen.dynamics.force.joints);
         let set_points = &command.set_points;
         Self {
-            efforts: from_fn(|j| if case.torque[j] { command.effort_asked[j] } else { flown[j] }),
+            efforts: from_fn(
+                |j| if case.torque[j] { command.effort_commanded[j] } else { flown[j] },
+            ),
             rates: from_fn(|j| larger(rates[j], set_points[j].rate / command.rate_share)),
             torque_cut_B: torque_cut(case, command, world),
         }
@@ -41,7 +43,7 @@ impl Asked {
 
 fn torque_cut(case: &Case, command: &Command<f64, JOINTS>, world: &World<JOINTS>) -> Vec3<f64> {
     match case.turning {
-        Turning::Fitted => command.steering.missing.torque,
+        Turning::Fitted => command.allocation.missing.torque,
         Turning::Ideal(_) if case.base == BaseAttitude::Controlled => {
             command.attitude_torque_B - world.actuator_torque_B()
         }
@@ -65,7 +67,7 @@ pub(crate) fn wheel_speeds(
     })
 }
 
-/// Rate of each gimbal (rad/s): the one that it is told and what its gyro would have to add to give what
+/// Rate of each gimbal (rad/s): the one that it is told and what its CMG would have to add to give what
 /// is missing about its torque axis, or the one that it has where that is more; with the limit.
 pub(crate) fn gimbal_rates(
     case: &Case,
@@ -75,15 +77,15 @@ pub(crate) fn gimbal_rates(
 ) -> impl Iterator<Item = (f64, f64)> {
     let (told, angles, rates) =
         (command.actuators.gimbal_rate, readings.gimbal_angle, readings.gimbal_rate);
-    case.equipment.actuators.gyros.iter().enumerate().take(GYROS).map(move |(i, gyro)| {
-        let asked = told[i] - gyro.torque_axis(angles[i]).dot(cut_B) / gyro.momentum;
-        (larger(rates[i], asked), gyro.rate_limit)
+    case.equipment.actuators.cmgs.iter().enumerate().take(CMGS).map(move |(i, cmg)| {
+        let asked = told[i] - cmg.torque_axis(angles[i]).dot(cut_B) / cmg.momentum;
+        (larger(rates[i], asked), cmg.rate_limit)
     })
 }
 
 /// Torque of each gimbal's motor (N·m): the one that it gives now, or the one that it would have needed
 /// to do as it was told, where that is more.
-pub(crate) fn gimbal_motors(world: &World<JOINTS>) -> [f64; GYROS] {
+pub(crate) fn gimbal_motors(world: &World<JOINTS>) -> [f64; CMGS] {
     let (given, asked) = (world.gimbal_motor_torque(), world.gimbal_motor_asked());
     from_fn(|i| larger(given[i], asked[i]))
 }

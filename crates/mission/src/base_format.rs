@@ -12,7 +12,7 @@ pub(crate) enum ActuatorsFile {
     Ideal,
     /// An ideal one without limits: it shows what is asked for.
     Unlimited,
-    /// The wheels, gyros and thrusters of `[actuators]`.
+    /// The wheels, CMGs and thrusters of `[actuators]`.
     Fitted,
 }
 
@@ -37,10 +37,10 @@ pub(crate) enum WheelLawFile {
     MinimumPeak,
 }
 
-/// How the gimbals of the gyros are turned.
+/// How the gimbals of the CMGs are turned.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub(crate) enum GyroLawFile {
+pub(crate) enum CmgLawFile {
     /// Least gimbal rates: exact, and lost at a singular setting.
     PseudoInverse,
     /// Damped near singular settings: finite rates, but stuck on the internal ones.
@@ -59,17 +59,19 @@ pub(crate) struct SteeringFile {
     /// How fast wheel speeds are evened out where that gives no torque.
     pub(crate) wheel_null_gain_per_s: f64,
     /// How the gimbals are turned.
-    pub(crate) gyros: GyroLawFile,
+    #[schemars(extend("x-formerly" = ["gyros"]))]
+    pub(crate) cmgs: CmgLawFile,
     /// How fast gimbals move away from singular settings where that gives no torque (rad/s for a unit
     /// slope of the singularity measure).
-    pub(crate) gyro_null_gain_rad_s: f64,
-    /// Direction of the momentum that the gyros will have to take up, base axes, of any length: gimbals
+    #[schemars(extend("x-formerly" = ["gyro_null_gain_rad_s"]))]
+    pub(crate) cmg_null_gain_rad_s: f64,
+    /// Direction of the momentum that the CMGs will have to take up, base axes, of any length: gimbals
     /// start at angles that are searched for it, from which plain steering goes farthest without
     /// coming near a singular setting. They replace the angles of `[actuators]`.
     pub(crate) preferred_for: Option<[f64; 3]>,
     /// How thrusters are pulsed.
     pub(crate) modulation: ModulationFile,
-    /// When thrusters empty wheels and gyros.
+    /// When thrusters empty wheels and CMGs.
     pub(crate) unloading: Option<UnloadingFile>,
 }
 
@@ -78,8 +80,8 @@ impl Default for SteeringFile {
         Self {
             wheels: WheelLawFile::default(),
             wheel_null_gain_per_s: 0.02,
-            gyros: GyroLawFile::default(),
-            gyro_null_gain_rad_s: 0.02,
+            cmgs: CmgLawFile::default(),
+            cmg_null_gain_rad_s: 0.02,
             preferred_for: None,
             modulation: ModulationFile::default(),
             unloading: None,
@@ -107,7 +109,7 @@ impl Default for ModulationFile {
     }
 }
 
-/// Thrusters take over what wheels and gyros have stored.
+/// Thrusters take over what wheels and CMGs have stored.
 #[derive(Debug, Clone, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct UnloadingFile {
@@ -198,23 +200,26 @@ pub(crate) enum FailureKindFile {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FailureFile {
-    /// Name of a wheel, gyro or thruster.
+    /// Name of a wheel, CMG or thruster.
     pub(crate) unit: String,
     /// How it fails.
     pub(crate) kind: FailureKindFile,
     /// When.
     pub(crate) at_s: f64,
-    /// How long after that the flight computer is told to do without it; never, if not given.
+    /// How long after that it is reported to the flight computer, which disables the unit; never, if not
+    /// given.
     #[serde(default)]
-    pub(crate) told_after_s: Option<f64>,
+    #[schemars(extend("x-formerly" = ["told_after_s"]))]
+    pub(crate) reported_after_s: Option<f64>,
 }
 
 /// What the claim of a study says, where verdicts can be held against it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ClaimIs {
-    /// Wheels do not suffice, and gyros do.
-    GyrosNeeded,
+    /// Wheels do not suffice, and CMGs do.
+    #[schemars(extend("x-formerly" = ["gyros-needed"]))]
+    CmgsNeeded,
 }
 
 /// What `wrasse size` makes of the cases.

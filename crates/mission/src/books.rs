@@ -20,7 +20,7 @@ pub(crate) fn ledger(books: &wrasse_world::Ledger, base: BaseAttitude) -> Ledger
         angular_from_actuator: books.angular_from_actuator.to_array(),
         angular_from_outside: books.angular_from_outside.to_array(),
         angular_in_wheels: [books.start.in_wheels, books.now.in_wheels].map(Vec3::to_array),
-        angular_in_gyros: [books.start.in_gyros, books.now.in_gyros].map(Vec3::to_array),
+        angular_in_cmgs: [books.start.in_cmgs, books.now.in_cmgs].map(Vec3::to_array),
         angular_from_thrusters: books.angular_from_thrusters.to_array(),
         angular_with_propellant: books.propellant.angular.to_array(),
         linear_from_thrusters: books.linear_from_thrusters.to_array(),

@@ -46,7 +46,7 @@ pub(crate) fn world_of(case: &Case, stepper: Stepper) -> World<JOINTS> {
     world
 }
 
-/// What the world is told of the wheels, gyros and thrusters of a case.
+/// What the world is told of the wheels, CMGs and thrusters of a case.
 fn equipment(case: &Case) -> Equipment {
     Equipment {
         actuators: case.equipment.actuators,

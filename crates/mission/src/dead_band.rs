@@ -25,10 +25,10 @@ impl DeadBand {
         time: f64,
     ) -> Option<String> {
         let actuators = &case.equipment.actuators;
-        let alone = actuators.wheels.is_empty() && actuators.gyros.is_empty();
-        let setup = case.setup.base.actuation.steering()?;
+        let alone = actuators.wheels.is_empty() && actuators.cmgs.is_empty();
+        let setup = case.setup.base.actuation.allocation()?;
         let (torque, force) =
-            (command.steering.wanted.torque.norm(), command.steering.wanted.force.norm());
+            (command.allocation.wanted.torque.norm(), command.allocation.wanted.force.norm());
         let shut = command.actuators.thruster_on.iter().all(|on| *on <= 0.0);
         if !(alone && shut && (torque > NOTHING || force > NOTHING)) {
             self.since = None;

@@ -11,14 +11,14 @@ use crate::read_base::Turning;
 use crate::saturations::{EquipmentLimits, describe};
 use crate::sensing::{Refusals, Sensing};
 use wrasse_flight::{Command, FlightComputer};
-use wrasse_hardware::{GYROS, SetPoint, SetPointMotion, THRUSTERS, WHEELS};
+use wrasse_hardware::{CMGS, SetPoint, SetPointMotion, THRUSTERS, WHEELS};
 use wrasse_spatial::{Quat, Vec3};
 use wrasse_vehicle::{JOINTS, VehicleRobot};
 use wrasse_world::{Drive, Saturation, Stepper, World};
 
 /// Most limits that can cut the commands of a period: efforts, an ideal actuator's torque and momentum,
-/// wheels' and gyros' two limits each, thrusters and their tank.
-const LIMITS: usize = JOINTS + 6 + 2 * WHEELS + 2 * GYROS + THRUSTERS + 1;
+/// wheels' and CMGs' two limits each, thrusters and their tank.
+const LIMITS: usize = JOINTS + 6 + 2 * WHEELS + 2 * CMGS + THRUSTERS + 1;
 
 /// Share of the vehicle's mass whose loss as propellant the flight computer is told of.
 const NOTICED: f64 = 1e-4;
@@ -44,7 +44,7 @@ pub(crate) struct Flight<'a> {
     pub(crate) dry: bool,
     /// Whether the attitude was lost.
     pub(crate) lost: bool,
-    /// Whether thrusters empty wheels and gyros.
+    /// Whether thrusters empty wheels and CMGs.
     pub(crate) unloads: bool,
     /// Angle of the estimated attitude from the true one (rad); NaN where nothing is estimated.
     pub(crate) estimate_error: f64,
@@ -243,7 +243,7 @@ impl<'a> Flight<'a> {
             }
             if due(failure.told_at.unwrap_or(f64::INFINITY), self.told[i]) {
                 self.told[i] = true;
-                self.computer.isolate(failure.unit);
+                self.computer.disable(failure.unit);
                 let text = format!("the flight computer is told to do without {}", failure.name);
                 self.say(EventKind::Failure, text);
             }
@@ -264,7 +264,7 @@ fn not_finite(case: &Case, command: &Command<f64, JOINTS>) -> Option<String> {
             return Some(format!("the set-point of joint {name}"));
         }
     }
-    let (told, wanted) = (&command.actuators, &command.steering.wanted);
+    let (told, wanted) = (&command.actuators, &command.allocation.wanted);
     [
         ("the torque on the base", &command.attitude_torque_B.to_array()[..]),
         ("the torque of the steering", &wanted.torque.to_array()),

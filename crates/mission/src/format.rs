@@ -31,7 +31,7 @@ pub(crate) struct MissionFile {
     /// Rigid bodies that can be held, by name.
     #[serde(default)]
     pub(crate) payload: BTreeMap<String, PayloadFile>,
-    /// Wheels, gyros and thrusters; they replace the vehicle's.
+    /// Wheels, CMGs and thrusters; they replace the vehicle's.
     #[serde(default)]
     pub(crate) actuators: Option<EquipmentFile>,
     /// Sensors of attitude and joints; they replace the vehicle's.
@@ -341,8 +341,10 @@ pub(crate) struct ControlFile {
     pub(crate) actuators: Option<ActuatorsFile>,
     /// What the laws know the state by; the fitted sensors if there are any.
     pub(crate) sensing: Option<SensingFile>,
-    /// Whether the laws feel what pushes at the tool, by a force-torque sensor, and stand against it.
-    pub(crate) feel_tool_wrench: bool,
+    /// Whether a force-torque sensor at the tool measures the wrench there, so that the laws
+    /// compensate it.
+    #[schemars(extend("x-formerly" = ["feel_tool_wrench"]))]
+    pub(crate) measure_tool_wrench: bool,
     /// From a wanted torque to what each actuator is told.
     pub(crate) steering: SteeringFile,
     /// Keep the centre of mass where it was at the start, by thrusters.
@@ -369,7 +371,7 @@ impl Default for ControlFile {
             damped_below: 0.02,
             actuators: None,
             sensing: None,
-            feel_tool_wrench: false,
+            measure_tool_wrench: false,
             steering: SteeringFile::default(),
             position_hold: None,
             estimation: EstimationFile::default(),

@@ -19,7 +19,7 @@ pub(crate) enum Passed {
     Blinded,
     ReadingRefused,
     EstimatorRestarted,
-    NoRelief,
+    NoPostureUnloading,
     DeadBand,
     Singular,
 }
@@ -27,7 +27,7 @@ pub(crate) enum Passed {
 /// A little more than round-off: what is kept to the last digit was not passed.
 const SLACK: f64 = 1.0 + 1e-9;
 
-/// det(A Aᵀ) (–) below which gyros count as singular: the pyramid at zero angles has 1.33, a setting a few
+/// det(A Aᵀ) (–) below which CMGs count as singular: the pyramid at zero angles has 1.33, a setting a few
 /// degrees from a singular one less than this.
 const SINGULAR: f64 = 0.01;
 
@@ -59,10 +59,10 @@ pub(crate) fn limits_passed(case: &Case, seen: &Observation) -> Vec<(Passed, Str
             passed.push((Passed::Effort(j), text));
         }
     }
-    let distance = seen.values[place("gyros.singularity_distance")];
+    let distance = seen.values[place("cmgs.singularity_distance")];
     if distance < SINGULAR {
         let text = format!(
-            "the gyros are all but singular, det(A Aᵀ) is {distance:.4}: torque about one axis takes high \
+            "the CMGs are all but singular, det(A Aᵀ) is {distance:.4}: torque about one axis takes high \
              gimbal rates or cannot be given"
         );
         passed.push((Passed::Singular, text));

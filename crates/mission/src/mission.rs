@@ -12,7 +12,7 @@ use crate::sampled_loops::{SampledLoop, sampled_loops};
 use std::sync::Arc;
 use wrasse_document::Complaint;
 use wrasse_dynamics::{Frame, JointKind, MassProperties, State};
-use wrasse_flight::steering::Unit;
+use wrasse_flight::allocation::Unit;
 use wrasse_flight::{Phase, Setup};
 use wrasse_hardware::{AttitudeActuator, Sensors};
 use wrasse_spatial::{Pose, SpatialVelocity};
@@ -83,7 +83,7 @@ impl Mission {
     pub fn case_labels(&self, case: usize) -> &[(String, String)] {
         &self.cases[case].labels
     }
-    /// Wheels, gyros and thrusters of a case.
+    /// Wheels, CMGs and thrusters of a case.
     ///
     /// # Panics
     /// If there is no case of this number.
@@ -137,7 +137,7 @@ pub(crate) struct Case {
     /// Imperfect sensors, if there are any.
     pub(crate) sensors: Option<Sensors<f64>>,
     /// Whether the tool has a force-torque sensor.
-    pub(crate) feels_wrench: bool,
+    pub(crate) measures_wrench: bool,
     pub(crate) failures: Vec<FailureCase>,
     pub(crate) wrenches: Vec<AppliedWrench>,
     pub(crate) seed: u64,

@@ -1,7 +1,7 @@
 //! What is seen of the truth after each control period.
 
 use crate::arm_shape::{reach_margin, smallest_singular_value};
-use crate::asked::{Asked, gimbal_motors, gimbal_rates, wheel_speeds};
+use crate::asked::{ActuatorDemand, gimbal_motors, gimbal_rates, wheel_speeds};
 use crate::mission::Case;
 use crate::quantity::FIXED_COUNT;
 use crate::read_base::Turning;
@@ -34,7 +34,7 @@ pub(crate) struct Observation {
     /// Rotation vector of the base since the start, with its whole turns (rad), and its translation (m).
     pub(crate) base_turn: Vec3<f64>,
     pub(crate) base_shift: Vec3<f64>,
-    /// What wheels, gyros and thrusters say.
+    /// What wheels, CMGs and thrusters say.
     pub(crate) readings: ActuatorReadings<f64>,
     /// Values in the order of the quantities; NaN behind the last.
     pub(crate) values: [f64; VALUES],
@@ -51,7 +51,7 @@ pub(crate) struct Needs {
     /// How near the arm is to its reach and to a singular posture.
     pub(crate) shape: bool,
     pub(crate) energy: bool,
-    /// What wheels, gyros and tank say of themselves.
+    /// What wheels, CMGs and tank say of themselves.
     pub(crate) readings: bool,
     /// Torque of the gimbals' motors.
     pub(crate) motors: bool,
@@ -76,8 +76,8 @@ impl Needs {
             dynamics: mounts || any(&["effort", "attitude.torque"]),
             shape: any(&["arm."]),
             energy: any(&["energy"]),
-            readings: any(&["attitude.momentum", "wheels.", "gyros.", "thrusters."]),
-            motors: any(&["gyros.motor_torque"]),
+            readings: any(&["attitude.momentum", "wheels.", "cmgs.", "thrusters."]),
+            motors: any(&["cmgs.motor_torque"]),
         }
     }
 }
@@ -226,7 +226,7 @@ pub(crate) fn observe(
     };
     let shape = if needs.shape { shape(case, jacobian, &k, &tool) } else { (nan, nan) };
     let energy = if needs.energy { there(kinetic_energy(&k)) } else { nan };
-    let asked = Asked::of(case, command, world, &seen);
+    let asked = ActuatorDemand::of(case, command, world, &seen);
     let of_any = values(case, &seen, track, &asked, mounts, shape, energy);
     let motors = if needs.motors { motor_torque(case, world) } else { nan };
     let equipped = of_equipment(case, (command, track), &seen, &asked, estimate_error, motors);
@@ -265,53 +265,55 @@ fn not_looked_at() -> Dynamics<f64, JOINTS> {
     }
 }
 
-/// Largest torque of a gimbal's motor (N·m); NaN without gyros.
+/// Largest torque of a gimbal's motor (N·m); NaN without CMGs.
 fn motor_torque(case: &Case, world: &World<JOINTS>) -> f64 {
-    if case.equipment.actuators.gyros.is_empty() {
+    if case.equipment.actuators.cmgs.is_empty() {
         return f64::NAN;
     }
     largest(gimbal_motors(world).map(f64::abs))
 }
 
-/// Momentum in wheels and gyros beside the base (N·m·s, base axes).
+/// Momentum in wheels and CMGs beside the base (N·m·s, base axes).
 fn stored(case: &Case, readings: &ActuatorReadings<f64>) -> Vec3<f64> {
     let actuators = &case.equipment.actuators;
-    actuators.gyro_momentum(&readings.gimbal_angle)
-        + actuators.wheel_momentum(&readings.wheel_speed)
+    actuators.cmg_momentum(&readings.gimbal_angle) + actuators.wheel_momentum(&readings.wheel_speed)
 }
 
 /// Whether the fitted equipment can take up momentum.
 fn stores_momentum(case: &Case) -> bool {
     let actuators = &case.equipment.actuators;
-    !(actuators.wheels.is_empty() && actuators.gyros.is_empty())
+    !(actuators.wheels.is_empty() && actuators.cmgs.is_empty())
 }
 
-/// Values of the quantities of wheels, gyros, thrusters and sensors, in their order; NaN where there is
+/// Values of the quantities of wheels, CMGs, thrusters and sensors, in their order; NaN where there is
 /// none.
 fn of_equipment(
     case: &Case,
     (command, track): (&Command<f64, JOINTS>, &Track),
     seen: &Observation,
-    asked: &Asked,
+    asked: &ActuatorDemand,
     estimate_error: f64,
     motor_torque: f64,
 ) -> [f64; 8] {
     let (actuators, readings) = (&case.equipment.actuators, &seen.readings);
     let use_of = |(x, limit): (f64, f64)| x.abs() / limit;
     let wheels = wheel_speeds(case, asked.torque_cut_B, readings).map(use_of);
-    let gyros = gimbal_rates(case, command, asked.torque_cut_B, readings).map(use_of);
+    let cmgs = gimbal_rates(case, command, asked.torque_cut_B, readings).map(use_of);
     let fitted = case.turning == Turning::Fitted;
-    let steered = fitted && !actuators.gyros.is_empty() && !track.coasting;
+    let steered = fitted && !actuators.cmgs.is_empty() && !track.coasting;
     let missing = |is_there: bool, x: Vec3<f64>| if is_there { there(x.norm()) } else { f64::NAN };
     let tank = actuators.tank.map_or(f64::NAN, |tank| tank.propellant);
     [
         missing(case.base == BaseAttitude::Controlled, asked.torque_cut_B),
-        missing(fitted && case.setup.base.position_hold.is_some(), command.steering.missing.force),
+        missing(
+            fitted && case.setup.base.position_hold.is_some(),
+            command.allocation.missing.force,
+        ),
         estimate_error,
         largest(wheels),
-        largest(gyros),
+        largest(cmgs),
         motor_torque,
-        if steered { there(command.steering.singularity) } else { f64::NAN },
+        if steered { there(command.allocation.singularity) } else { f64::NAN },
         tank - readings.propellant,
     ]
 }
@@ -339,7 +341,7 @@ fn values(
     case: &Case,
     seen: &Observation,
     track: &Track,
-    asked: &Asked,
+    asked: &ActuatorDemand,
     mounts: (f64, f64),
     shape: (f64, f64),
     energy: f64,

@@ -229,11 +229,11 @@ pub struct Ledger {
     /// Angular impulse by which the attitude actuator turned the bodies (N·m·s): what it stores is the
     /// opposite.
     pub angular_from_actuator: [f64; 3],
-    /// Of the angular momentum: in wheels and in gyros beside the base, at the start and at the end
+    /// Of the angular momentum: in wheels and in CMGs beside the base, at the start and at the end
     /// (N·m·s).
     pub angular_in_wheels: [[f64; 3]; 2],
-    /// The same of the gyros (N·m·s).
-    pub angular_in_gyros: [[f64; 3]; 2],
+    /// The same of the CMGs (N·m·s).
+    pub angular_in_cmgs: [[f64; 3]; 2],
     /// Angular impulse of the thrusters (N·m·s).
     pub angular_from_thrusters: [f64; 3],
     /// Angular momentum that left with the propellant (N·m·s).

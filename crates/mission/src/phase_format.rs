@@ -19,7 +19,8 @@ pub(crate) struct PhaseFile {
     pub(crate) hold: Option<HoldFile>,
     /// The arm moves so that what pushes at the tool asks the base to store less momentum, without
     /// turning it.
-    pub(crate) relieve: Option<RelieveFile>,
+    #[schemars(extend("x-formerly" = ["relieve"]))]
+    pub(crate) unload_by_posture: Option<UnloadByPostureFile>,
     /// The tool grasps a free payload.
     pub(crate) grasp: Option<GraspFile>,
     /// The tool lets go of a payload.
@@ -172,7 +173,7 @@ pub(crate) struct HoldFile {
     pub(crate) keep: KeepFile,
 }
 
-/// What of the tool must stay while the posture relieves the base.
+/// What of the tool must stay while the posture unloads the base.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum ToolTaskFile {
@@ -187,10 +188,10 @@ pub(crate) enum ToolTaskFile {
     Pose,
 }
 
-/// A posture that relieves the base.
+/// A posture that unloads the base.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct RelieveFile {
+pub(crate) struct UnloadByPostureFile {
     /// For how long.
     pub(crate) duration_s: f64,
     /// What of the tool must stay.

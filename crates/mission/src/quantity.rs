@@ -133,9 +133,9 @@ const FIXED: &[(&str, Kind, &[Statistic])] = {
         ("attitude.force_missing", Kind::Force, &[Max, Rms]),
         ("attitude.estimate_error", Kind::Angle, &[Max, Final, Rms]),
         ("wheels.speed_use", Kind::Number, &[Max, Final]),
-        ("gyros.rate_use", Kind::Number, &[Max]),
-        ("gyros.motor_torque", Kind::Torque, &[Max]),
-        ("gyros.singularity_distance", Kind::Number, &[Min, Final]),
+        ("cmgs.rate_use", Kind::Number, &[Max]),
+        ("cmgs.motor_torque", Kind::Torque, &[Max]),
+        ("cmgs.singularity_distance", Kind::Number, &[Min, Final]),
         ("thrusters.propellant_used", Kind::Mass, &[Final]),
     ]
 };

@@ -2,15 +2,15 @@
 
 use crate::applied_wrench::AppliedWrench;
 use crate::base_format::{
-    ActuatorsFile, FailureKindFile, GyroLawFile, SensingFile, SteeringFile, WheelLawFile,
+    ActuatorsFile, CmgLawFile, FailureKindFile, SensingFile, SteeringFile, WheelLawFile,
 };
 use crate::format::{BaseFile, FeedforwardFile, MissionFile};
 use crate::mission::FailureCase;
 use crate::read_setup::{attitude, axes, tool, vector};
 use crate::reading::Reading;
 use wrasse_document::{Severity, Step, at};
-use wrasse_flight::steering::{
-    Damping, GyroLaw, GyroSharing, Modulation, SteeringSetup, Unit, Unloading, Waves, WheelLaw,
+use wrasse_flight::allocation::{
+    AllocationSetup, CmgLaw, CmgSharing, Damping, Desaturation, Modulation, Unit, Waves, WheelLaw,
     WheelSharing, preferred_angles,
 };
 use wrasse_flight::{
@@ -22,15 +22,15 @@ use wrasse_spatial::{SpatialForce, Vec3};
 use wrasse_vehicle::{Equipment, check_equipment, read_equipment, read_sensors};
 use wrasse_world::Failure;
 
-/// Wheels, gyros and thrusters of this mission.
+/// Wheels, CMGs and thrusters of this mission.
 pub(crate) fn equipment(r: &mut Reading<'_>, file: &MissionFile) -> Equipment {
     let mut equipment = given_equipment(r, file);
     if let Some(direction) = file.control.steering.preferred_for {
-        if let Some(angles) = preferred_angles(&equipment.actuators.gyros, vector(direction)) {
+        if let Some(angles) = preferred_angles(&equipment.actuators.cmgs, vector(direction)) {
             equipment.gimbal_angle = angles;
         } else {
             let message = "no gimbal angles can be searched for this direction".into();
-            let help = "it takes gyros whose rotors can cancel each other, and a direction that has a \
+            let help = "it takes CMGs whose rotors can cancel each other, and a direction that has a \
                         length";
             r.error(at!["control", "steering", "preferred_for"], message, help);
         }
@@ -83,7 +83,7 @@ pub(crate) fn sensors(
 pub(crate) enum Turning {
     /// An ideal actuator, within limits if it has them.
     Ideal(Option<AttitudeActuator<f64>>),
-    /// Wheels, gyros and thrusters.
+    /// Wheels, CMGs and thrusters.
     Fitted,
 }
 
@@ -103,7 +103,7 @@ pub(crate) fn turning(r: &mut Reading<'_>, file: &MissionFile, equipment: &Equip
             r.error(at!["control", "actuators"], message, help);
         }
         Some(ActuatorsFile::Fitted) if none => {
-            let message = format!("vehicle {} has no wheels, gyros or thrusters", file.vehicle);
+            let message = format!("vehicle {} has no wheels, CMGs or thrusters", file.vehicle);
             r.error(at!["control", "actuators"], message, add);
         }
         None if none && ideal.is_none() => {
@@ -150,7 +150,7 @@ pub(crate) fn doubt_idle_units(
     };
     let by_default = if r.is_there(path) { "" } else { ", by default" };
     let message = format!(
-        "wheels, gyros and thrusters are fitted and do nothing: {why}{by_default}; their masses count"
+        "wheels, CMGs and thrusters are fitted and do nothing: {why}{by_default}; their masses count"
     );
     r.warning(path, message, help);
 }
@@ -176,7 +176,7 @@ pub(crate) fn base_control(
         r.error(at!["control", "position_hold"], message, help);
     }
     let steering = steering(r, &c.steering);
-    if let (true, Some(equipment), Some(_)) = (known, fitted, steering.unloading) {
+    if let (true, Some(equipment), Some(_)) = (known, fitted, steering.desaturation) {
         check_unloading(r, equipment);
     }
     BaseControlSetup {
@@ -189,7 +189,7 @@ pub(crate) fn base_control(
         quat_ND: attitude(r, at!["initial", "attitude"], file.initial.attitude),
         actuation: match (turning, fitted) {
             _ if file.world.base_attitude != BaseFile::Controlled => Actuation::None,
-            (Turning::Fitted, Some(e)) => Actuation::Fitted(SteeringSetup {
+            (Turning::Fitted, Some(e)) => Actuation::Fitted(AllocationSetup {
                 actuators: e.actuators,
                 holds_position: position_hold.is_some(),
                 ..steering
@@ -201,7 +201,7 @@ pub(crate) fn base_control(
     }
 }
 
-/// Thrusters empty wheels and gyros: both must be there.
+/// Thrusters empty wheels and CMGs: both must be there.
 fn check_unloading(r: &mut Reading<'_>, equipment: &Equipment) {
     let path = at!["control", "steering", "unloading"];
     let help = "add them to [actuators], or leave unloading out";
@@ -209,13 +209,13 @@ fn check_unloading(r: &mut Reading<'_>, equipment: &Equipment) {
     if actuators.thrusters.is_empty() {
         r.error(path, "unloading takes thrusters: there are none".into(), help);
     }
-    if actuators.wheels.is_empty() && actuators.gyros.is_empty() {
-        r.error(path, "unloading takes wheels or gyros to empty: there are none".into(), help);
+    if actuators.wheels.is_empty() && actuators.cmgs.is_empty() {
+        r.error(path, "unloading takes wheels or CMGs to empty: there are none".into(), help);
     }
 }
 
 /// The laws of the steering, for no actuators yet.
-fn steering(r: &mut Reading<'_>, file: &SteeringFile) -> SteeringSetup<f64> {
+fn steering(r: &mut Reading<'_>, file: &SteeringFile) -> AllocationSetup<f64> {
     let path = |key| [Step::Key("control"), Step::Key("steering"), Step::Key(key)];
     let wheels = WheelLaw {
         sharing: match file.wheels {
@@ -224,16 +224,16 @@ fn steering(r: &mut Reading<'_>, file: &SteeringFile) -> SteeringSetup<f64> {
         },
         null_gain: r.not_negative(&path("wheel_null_gain_per_s"), file.wheel_null_gain_per_s),
     };
-    let null_gain = r.not_negative(&path("gyro_null_gain_rad_s"), file.gyro_null_gain_rad_s);
+    let null_gain = r.not_negative(&path("cmg_null_gain_rad_s"), file.cmg_null_gain_rad_s);
     // The numbers of the literature: Wie, Bailey, Heiberg 2001.
     let damping = Damping { k0: 0.01, fading: 10.0 };
     let quarter = std::f64::consts::FRAC_PI_2;
     let waves = Waves { height: 0.01, frequency: quarter, phases: [0.0, quarter, 2.0 * quarter] };
-    let sharing = match file.gyros {
-        GyroLawFile::PseudoInverse => GyroSharing::PseudoInverse,
-        GyroLawFile::SingularityRobust => GyroSharing::SingularityRobust(damping),
-        GyroLawFile::GeneralizedSingularityRobust => {
-            GyroSharing::GeneralizedSingularityRobust(damping, waves)
+    let sharing = match file.cmgs {
+        CmgLawFile::PseudoInverse => CmgSharing::PseudoInverse,
+        CmgLawFile::SingularityRobust => CmgSharing::SingularityRobust(damping),
+        CmgLawFile::GeneralizedSingularityRobust => {
+            CmgSharing::GeneralizedSingularityRobust(damping, waves)
         }
     };
     let unloading = file.unloading.as_ref().map(|u| {
@@ -247,7 +247,7 @@ fn steering(r: &mut Reading<'_>, file: &SteeringFile) -> SteeringSetup<f64> {
             );
             r.error(&path("ends_at_nms"), message, "let it end below where it begins");
         }
-        Unloading {
+        Desaturation {
             target_B: Vec3::zero(),
             start: r.positive(&path("begins_at_nms"), u.begins_at_nms),
             stop: r.not_negative(&path("ends_at_nms"), u.ends_at_nms),
@@ -255,13 +255,13 @@ fn steering(r: &mut Reading<'_>, file: &SteeringFile) -> SteeringSetup<f64> {
             active: false,
         }
     });
-    SteeringSetup {
+    AllocationSetup {
         actuators: wrasse_hardware::Actuators::default(),
         wheels,
-        gyros: GyroLaw { sharing, null_gain },
+        cmgs: CmgLaw { sharing, null_gain },
         modulation: modulation(r, file),
         holds_position: false,
-        unloading,
+        desaturation: unloading,
     }
 }
 
@@ -364,23 +364,23 @@ pub(crate) fn failures(
     file: &MissionFile,
     equipment: &Equipment,
 ) -> Vec<FailureCase> {
-    let groups = [&equipment.wheel_names, &equipment.gyro_names, &equipment.thruster_names];
+    let groups = [&equipment.wheel_names, &equipment.cmg_names, &equipment.thruster_names];
     let names: Vec<String> = groups.into_iter().flatten().cloned().collect();
     if file.world.base_attitude == BaseFile::Held && !file.failure.is_empty() {
-        let message =
-            "the base is held exactly: wheels, gyros and thrusters do not act, and their \
+        let message = "the base is held exactly: wheels, CMGs and thrusters do not act, and their \
                        failures change nothing"
-                .into();
+            .into();
         r.warning(at!["failure"], message, "set world.base_attitude to \"controlled\"");
     }
     let mut all: Vec<FailureCase> = vec![];
     for (i, f) in file.failure.iter().enumerate() {
         let path = |key| [Step::Key("failure"), Step::Index(i), Step::Key(key)];
         let at = r.not_negative(&path("at_s"), f.at_s);
-        let told_at = f.told_after_s.map(|after| at + r.not_negative(&path("told_after_s"), after));
+        let told_at =
+            f.reported_after_s.map(|after| at + r.not_negative(&path("reported_after_s"), after));
         let there = names.contains(&f.unit);
         if !there && r.knows_actuators {
-            r.find(&path("unit"), "wheel, gyro or thruster", &f.unit, &names);
+            r.find(&path("unit"), "wheel, CMG or thruster", &f.unit, &names);
         }
         if !there {
             continue;
@@ -388,13 +388,13 @@ pub(crate) fn failures(
         let place = |group: &[String]| group.iter().position(|n| *n == f.unit);
         let (unit, breaks) = match (f.kind, groups.map(|g| place(g))) {
             (FailureKindFile::Dead, [Some(n), ..]) => (Unit::Wheel(n), Failure::Wheel(n)),
-            (FailureKindFile::Stuck, [_, Some(n), _]) => (Unit::Gyro(n), Failure::Gimbal(n)),
+            (FailureKindFile::Stuck, [_, Some(n), _]) => (Unit::Cmg(n), Failure::Gimbal(n)),
             (FailureKindFile::Shut, [.., Some(n)]) => (Unit::Thruster(n), Failure::ThrusterShut(n)),
             (FailureKindFile::Open, [.., Some(n)]) => (Unit::Thruster(n), Failure::ThrusterOpen(n)),
             _ => {
                 let message = format!("{} cannot fail in this way", f.unit);
                 let help =
-                    "a wheel can be \"dead\", a gyro \"stuck\", a thruster \"shut\" or \"open\"";
+                    "a wheel can be \"dead\", a CMG \"stuck\", a thruster \"shut\" or \"open\"";
                 r.error(&path("kind"), message, help);
                 continue;
             }

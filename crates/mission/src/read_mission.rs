@@ -182,7 +182,7 @@ fn read_case(
     let output_rate = output_rate(r, &file);
     let stepper = stepper(r, &file);
     let (modulation, period) =
-        (base_control.actuation.steering().map(|s| s.modulation), setup.tuning.period);
+        (base_control.actuation.allocation().map(|s| s.modulation), setup.tuning.period);
     let sampling = Sampling { equipment: &equipment, base, turning, stepper, period, modulation };
     check_sampling(r, &file, &sampling);
     let nominal = Nominal::of(&vehicle, (&start, base), &payloads, &fitted_sensors);
@@ -198,7 +198,7 @@ fn read_case(
         turning,
         equipment,
         sensors,
-        feels_wrench: file.control.feel_tool_wrench,
+        measures_wrench: file.control.measure_tool_wrench,
         failures,
         wrenches,
         seed: file.seed,

@@ -4,7 +4,7 @@ use crate::format::{ArmLawFile, MissionFile};
 use crate::mission::PhaseCase;
 use crate::phase_format::{
     AxesFile, GraspFile, JointLimitsFile, KeepFile, MoveJointsFile, MoveToolFile, PhaseFile,
-    RelieveFile, ShapeFile, ToolLimitsFile, ToolPoseFile, ToolTaskFile,
+    ShapeFile, ToolLimitsFile, ToolPoseFile, ToolTaskFile, UnloadByPostureFile,
 };
 use crate::read_setup::{
     RATES, attitude, axes, by_joint, grasp_bounds, place_of_position, posture, radians, vector,
@@ -12,7 +12,7 @@ use crate::read_setup::{
 use crate::reading::Reading;
 use wrasse_document::{Step, at};
 use wrasse_dynamics::JointKind;
-use wrasse_flight::steering::ToolTask;
+use wrasse_flight::allocation::ToolTask;
 use wrasse_flight::trajectory::{MotionLimits, ProfileShape};
 use wrasse_flight::{Grip, Held, JointTarget, JointTiming, LONGEST, Phase, Target, Timing};
 use wrasse_spatial::{Pose, Vec3};
@@ -32,7 +32,7 @@ pub(crate) fn phase(
         (file.move_tool.is_some(), "move_tool"),
         (file.move_joints.is_some(), "move_joints"),
         (file.hold.is_some(), "hold"),
-        (file.relieve.is_some(), "relieve"),
+        (file.unload_by_posture.is_some(), "unload_by_posture"),
         (file.grasp.is_some(), "grasp"),
         (file.release.is_some(), "release"),
     ];
@@ -41,8 +41,7 @@ pub(crate) fn phase(
         let found = if said.is_empty() { "none".into() } else { said.join(" and ") };
         let message =
             format!("phase {:?} must say exactly one thing to do, found {found}", file.name);
-        let help =
-            "one of move_tool, move_joints, hold, relieve, grasp, release; write a phase for each";
+        let help = "one of move_tool, move_joints, hold, unload_by_posture, grasp, release; write a phase for each";
         r.error(at!["phase", i], message, help);
         return None;
     }
@@ -54,35 +53,36 @@ pub(crate) fn phase(
         let path = at!["phase", i, "hold", "duration_s"];
         let duration = duration(r, path, hold.duration_s, mission);
         Phase::Hold { what: held(hold.keep), duration }
-    } else if let Some(given) = &file.relieve {
-        relieve(r, i, given, mission)
+    } else if let Some(given) = &file.unload_by_posture {
+        unload_by_posture(r, i, given, mission)
     } else if let Some(grasp) = &file.grasp {
         grasp_bounds = Some(bounds(r, i, grasp, mission));
         let path = at!["phase", i, "grasp", "payload"];
         let told = Grip::Grasp(r.find(path, "payload", &grasp.payload, payloads)?);
-        Phase::Grip { told, keep: held(grasp.keep) }
+        Phase::Grip { action: told, keep: held(grasp.keep) }
     } else {
         let release = file.release.as_ref()?;
         let path = at!["phase", i, "release", "payload"];
         let told = Grip::Release(r.find(path, "payload", &release.payload, payloads)?);
-        Phase::Grip { told, keep: held(release.keep) }
+        Phase::Grip { action: told, keep: held(release.keep) }
     };
     Some(PhaseCase { name: file.name.clone(), phase, grasp_bounds })
 }
 
-fn relieve(
+fn unload_by_posture(
     r: &mut Reading<'_>,
     i: usize,
-    file: &RelieveFile,
+    file: &UnloadByPostureFile,
     mission: &MissionFile,
 ) -> Phase<f64, JOINTS> {
-    let path = |key| [Step::Key("phase"), Step::Index(i), Step::Key("relieve"), Step::Key(key)];
-    if !mission.control.feel_tool_wrench {
+    let path =
+        |key| [Step::Key("phase"), Step::Index(i), Step::Key("unload_by_posture"), Step::Key(key)];
+    if !mission.control.measure_tool_wrench {
         let message = "nothing is known of what pushes at the tool".into();
-        let help = "set control.feel_tool_wrench = true: a force-torque sensor at the tool";
-        r.error(at!["phase", i, "relieve"], message, help);
+        let help = "set control.measure_tool_wrench = true: a force-torque sensor at the tool";
+        r.error(at!["phase", i, "unload_by_posture"], message, help);
     }
-    Phase::Relieve {
+    Phase::UnloadByPosture {
         task: match file.keep {
             ToolTaskFile::Nothing => ToolTask::Free,
             ToolTaskFile::Orientation => ToolTask::Orientation,

@@ -195,7 +195,11 @@ fn find_metric(
         .iter()
         .flat_map(|q| q.statistics.iter().map(move |s| format!("{}.{}", q.name, s.name())))
         .collect();
+    let renamed = metric.replacen("gyros.", "cmgs.", 1);
     let help = match closest(metric, names.iter().map(String::as_str)) {
+        _ if metric != renamed && names.contains(&renamed) => {
+            format!("{metric} was renamed: write {renamed}")
+        }
         Some(name) => format!("did you mean {name}?"),
         None => format!("the metrics are {}", all_metrics(quantities).join("; ")),
     };

@@ -90,8 +90,8 @@ impl Mission {
             let _ = write!(print, "{:?}", (v.robot, &v.limits, &v.frames, v.attitude_actuator));
             let _ = write!(print, "{:?}", (labels, start, payloads, base, turning));
             let _ = write!(print, "{:?}", (e.actuators, e.wheel_speed, e.gimbal_angle));
-            let Case { sensors, feels_wrench, failures, wrenches, stepper, torque, .. } = case;
-            let _ = write!(print, "{:?}", (sensors, feels_wrench, failures, wrenches));
+            let Case { sensors, measures_wrench, failures, wrenches, stepper, torque, .. } = case;
+            let _ = write!(print, "{:?}", (sensors, measures_wrench, failures, wrenches));
             let _ = write!(print, "{:?}", (stepper, torque, &case.setup, &case.phases));
             let _ = write!(print, "{:?}", (&case.dispersions, &case.requirements));
         }

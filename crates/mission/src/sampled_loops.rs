@@ -39,7 +39,7 @@ pub struct SampledLoop {
     pub gain: f64,
     /// Key of its bandwidth in the table `[control]`.
     key: &'static str,
-    /// Whether the servos of the gyros set the limit, so that no rate helps.
+    /// Whether the servos of the CMGs set the limit, so that no rate helps.
     servos: bool,
 }
 
@@ -57,7 +57,7 @@ impl SampledLoop {
         if self.limit.is_infinite() {
             return format!("{at}, stable at any rate");
         }
-        let by = if self.servos { " by the servos of the gyros" } else { "" };
+        let by = if self.servos { " by the servos of the CMGs" } else { "" };
         let gain = if (self.gain - 1.0).abs() < 1e-6 {
             String::new()
         } else {
@@ -171,13 +171,13 @@ fn plain_limit(damping: f64) -> f64 {
     (1.0 / damping).min(4.0 * damping)
 }
 
-/// Largest bandwidth of the attitude loop (rad/s) with servos of gyros that lag by their bandwidth b:
+/// Largest bandwidth of the attitude loop (rad/s) with servos of CMGs that lag by their bandwidth b:
 /// `s³/b + s² + 2ζω s + ω²` is stable for `ω < 2ζ b`.
 fn servo_limit(case: &Case, damping: f64) -> f64 {
     if case.turning != Turning::Fitted {
         return f64::INFINITY;
     }
-    let servos = case.equipment.actuators.gyros.iter().map(|gyro| gyro.servo_bandwidth);
+    let servos = case.equipment.actuators.cmgs.iter().map(|cmg| cmg.servo_bandwidth);
     servos.fold(f64::INFINITY, |least, b| least.min(2.0 * damping * b))
 }
 

@@ -5,7 +5,7 @@ use crate::format::MissionFile;
 use crate::read_base::Turning;
 use crate::reading::Reading;
 use wrasse_document::{Step, at};
-use wrasse_flight::steering::Modulation;
+use wrasse_flight::allocation::Modulation;
 use wrasse_vehicle::Equipment;
 use wrasse_world::{BaseAttitude, Stepper};
 
@@ -48,15 +48,15 @@ fn check_servos(r: &mut Reading<'_>, file: &MissionFile, sampling: &Sampling<'_>
     let Stepper::Fixed { step } = sampling.stepper else { return };
     let step = step.min(sampling.period);
     let equipment = sampling.equipment;
-    let gyros = equipment.gyro_names.iter().zip(equipment.actuators.gyros.iter());
-    let fastest = gyros.max_by(|a, b| a.1.servo_bandwidth.total_cmp(&b.1.servo_bandwidth));
-    let Some((name, gyro)) = fastest else { return };
-    let bandwidth = gyro.servo_bandwidth;
+    let cmgs = equipment.cmg_names.iter().zip(equipment.actuators.cmgs.iter());
+    let fastest = cmgs.max_by(|a, b| a.1.servo_bandwidth.total_cmp(&b.1.servo_bandwidth));
+    let Some((name, cmg)) = fastest else { return };
+    let bandwidth = cmg.servo_bandwidth;
     if bandwidth * step <= SERVO_STEP {
         return;
     }
     let message = format!(
-        "a step of {step} s is too long for the servo of gyro {name}, {bandwidth} rad/s: it turns its \
+        "a step of {step} s is too long for the servo of CMG {name}, {bandwidth} rad/s: it turns its \
          gimbal within {} s",
         rounded(1.0 / bandwidth)
     );

@@ -1,4 +1,4 @@
-//! Limits that cut commands: said when it begins and, for wheels, gyros and thrusters, summed up at
+//! Limits that cut commands: said when it begins and, for wheels, CMGs and thrusters, summed up at
 //! the end.
 
 use crate::mission::Case;
@@ -72,10 +72,10 @@ pub(crate) fn at_limits(
     command: &Command<f64, JOINTS>,
     readings: &ActuatorReadings<f64>,
 ) -> Vec<Saturation> {
-    let Actuators { wheels, gyros, .. } = &case.equipment.actuators;
+    let Actuators { wheels, cmgs, .. } = &case.equipment.actuators;
     let told = &command.actuators;
     let mut met = vec![];
-    if command.steering.missing.torque.norm() <= 1e-9 {
+    if command.allocation.missing.torque.norm() <= 1e-9 {
         return met;
     }
     for (i, wheel) in wheels.iter().enumerate() {
@@ -89,8 +89,8 @@ pub(crate) fn at_limits(
             met.push(Saturation::WheelSpeed(i));
         }
     }
-    for (i, gyro) in gyros.iter().enumerate() {
-        if told.gimbal_rate[i].abs() >= gyro.rate_limit * NEARLY {
+    for (i, cmg) in cmgs.iter().enumerate() {
+        if told.gimbal_rate[i].abs() >= cmg.rate_limit * NEARLY {
             met.push(Saturation::GimbalRate(i));
         }
     }
@@ -100,7 +100,7 @@ pub(crate) fn at_limits(
 /// Share of a limit from which on it counts as met.
 const NEARLY: f64 = 1.0 - 1e-6;
 
-/// Whether a limit is one of wheels, gyros or thrusters.
+/// Whether a limit is one of wheels, CMGs or thrusters.
 fn is_of_equipment(limit: Saturation) -> bool {
     !matches!(
         limit,
@@ -131,9 +131,9 @@ pub(crate) fn describe(case: &Case, limit: Saturation) -> String {
     }
 }
 
-/// A limit of a wheel, gyro or thruster in words.
+/// A limit of a wheel, CMG or thruster in words.
 fn describe_unit(equipment: &Equipment, limit: Saturation) -> String {
-    let Equipment { actuators, wheel_names, gyro_names, thruster_names, .. } = equipment;
+    let Equipment { actuators, wheel_names, cmg_names, thruster_names, .. } = equipment;
     let name = |names: &[String], i: usize| names.get(i).cloned().unwrap_or_default();
     let per_minute = |w: f64| w * 30.0 / std::f64::consts::PI;
     match limit {
@@ -148,14 +148,14 @@ fn describe_unit(equipment: &Equipment, limit: Saturation) -> String {
             per_minute(actuators.wheels[i].speed_limit)
         ),
         Saturation::GimbalRate(i) => format!(
-            "gyro {} at its gimbal rate limit of {:.2} deg/s",
-            name(gyro_names, i),
-            actuators.gyros[i].rate_limit.to_degrees()
+            "CMG {} at its gimbal rate limit of {:.2} deg/s",
+            name(cmg_names, i),
+            actuators.cmgs[i].rate_limit.to_degrees()
         ),
         Saturation::GimbalMotor(i) => format!(
-            "gyro {} at the limit of its gimbal motor, {:.3} N·m",
-            name(gyro_names, i),
-            actuators.gyros[i].motor_limit
+            "CMG {} at the limit of its gimbal motor, {:.3} N·m",
+            name(cmg_names, i),
+            actuators.cmgs[i].motor_limit
         ),
         Saturation::PulseTooShort(i) => format!(
             "thruster {} was told to open for less than {:.3} s and stayed shut",

@@ -27,7 +27,7 @@ impl Sensing {
     pub(crate) fn read(&mut self, case: &Case, world: &World<JOINTS>) -> Sensed<f64, JOINTS> {
         let (state, period) = (world.state(), case.period());
         let mut perfect = Sensed::perfect(&state, world.actuator_readings());
-        if case.feels_wrench {
+        if case.measures_wrench {
             let k = kinematics(world.robot(), &state);
             let tool = &case.setup.assignment.tool;
             perfect.tool_wrench_E = Some(felt(&case.wrenches, tool, world.time(), &k));

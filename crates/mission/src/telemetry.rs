@@ -128,18 +128,18 @@ impl Recorder {
             let per_minute = read.wheel_speed[i] * 30.0 / std::f64::consts::PI;
             self.put("Wheel speeds", name, &format!("wheel.{name}.speed"), "rpm", per_minute);
         }
-        for (i, name) in equipment.gyro_names.iter().enumerate() {
+        for (i, name) in equipment.cmg_names.iter().enumerate() {
             let degrees = read.gimbal_angle[i].to_degrees();
-            self.put("Gimbal angles", name, &format!("gyro.{name}.angle"), "deg", degrees);
+            self.put("Gimbal angles", name, &format!("cmg.{name}.angle"), "deg", degrees);
         }
-        for (i, name) in equipment.gyro_names.iter().enumerate() {
+        for (i, name) in equipment.cmg_names.iter().enumerate() {
             let degrees = read.gimbal_rate[i].to_degrees();
-            self.put("Gimbal rates", name, &format!("gyro.{name}.rate"), "deg/s", degrees);
+            self.put("Gimbal rates", name, &format!("cmg.{name}.rate"), "deg/s", degrees);
         }
-        if !equipment.gyro_names.is_empty() {
-            let plot = "Distance of the gyros from a singular setting";
-            let measure = value("gyros.singularity_distance");
-            self.put(plot, "det(A Aᵀ)", "gyros.singularity_distance", "–", measure);
+        if !equipment.cmg_names.is_empty() {
+            let plot = "Distance of the CMGs from a singular setting";
+            let measure = value("cmgs.singularity_distance");
+            self.put(plot, "det(A Aᵀ)", "cmgs.singularity_distance", "–", measure);
         }
         if equipment.actuators.tank.is_some() {
             let grams = value("thrusters.propellant_used") * 1e3;

@@ -22,7 +22,7 @@ impl Flight<'_> {
                 cut.push(limit);
             }
         }
-        let (missing, turned) = (command.steering.missing.torque.norm(), self.turned());
+        let (missing, turned) = (command.allocation.missing.torque.norm(), self.turned());
         self.limits.note(&cut, self.world.time(), missing, turned);
         for &saturation in &cut {
             if !self.said.contains(&saturation) {
@@ -58,7 +58,7 @@ impl Flight<'_> {
 
     /// Say once in a phase that torque or force is missing, and once that the attitude is lost.
     pub(crate) fn tell_missing(&mut self, command: &Command<f64, JOINTS>) {
-        let (wanted, missing) = (command.steering.wanted, command.steering.missing);
+        let (wanted, missing) = (command.allocation.wanted, command.allocation.missing);
         for (kind, of, missing, wanted, unit) in [
             (Passed::TorqueMissing, "torque", missing.torque, wanted.torque, "N·m"),
             (Passed::ForceMissing, "force", missing.force, wanted.force, "N"),
@@ -76,16 +76,16 @@ impl Flight<'_> {
         if let Some(text) = self.dead_band.note(self.case, command, time).filter(|_| !self.dry) {
             self.tell_once(Passed::DeadBand, text);
         }
-        if command.steering.unloading != self.unloads {
-            self.unloads = command.steering.unloading;
-            let stored = command.steering.stored_B.norm();
+        if command.allocation.desaturation != self.unloads {
+            self.unloads = command.allocation.desaturation;
+            let stored = command.allocation.stored_B.norm();
             let done = if self.unloads { "begin to empty" } else { "have emptied" };
-            let text = format!("thrusters {done} wheels and gyros: {stored:.2} N·m·s are stored");
+            let text = format!("thrusters {done} wheels and CMGs: {stored:.2} N·m·s are stored");
             self.say(EventKind::Limit, text);
         }
-        if let Some(reason) = command.no_relief {
-            let text = format!("the posture cannot relieve the base: {reason}");
-            self.tell_once(Passed::NoRelief, text);
+        if let Some(reason) = command.no_posture_unloading {
+            let text = format!("the posture cannot unload the base: {reason}");
+            self.tell_once(Passed::NoPostureUnloading, text);
         }
         if self.sensing.blinded {
             let text = "the base turns too fast for its star tracker".into();

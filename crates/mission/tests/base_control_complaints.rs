@@ -1,4 +1,4 @@
-//! What a user reads when wheels, gyros, thrusters, sensors or failures are not as they can be.
+//! What a user reads when wheels, CMGs, thrusters, sensors or failures are not as they can be.
 
 use wrasse_document::{Complaint, render};
 use wrasse_mission::{Mission, read_mission};
@@ -34,7 +34,7 @@ gain_per_s = 0.5
 
 [actuators]
 wheel = [{ name = "w1", model = "honeywell-hr16-100", axis = [1.0, 0.0, 0.0] }]
-gyro_array = [{ name = "g", model = "airbus-cmg-15-45s", arrangement = "pyramid", skew_deg = 53.13 }]
+cmg_array = [{ name = "g", model = "airbus-cmg-15-45s", arrangement = "pyramid", skew_deg = 53.13 }]
 
 [[actuators.thruster_set]]
 name = "t"
@@ -53,7 +53,7 @@ star_tracker = { boresight = [-1.0, 0.0, 0.0], noise_across_arcsec = 3.0, noise_
 unit = "g-2"
 kind = "stuck"
 at_s = 3.0
-told_after_s = 0.5
+reported_after_s = 0.5
 
 [[phase]]
 name = "hold"
@@ -123,7 +123,7 @@ fn a_mission_with_all_kinds_of_units_is_read_without_a_remark() {
     assert!(mission.remarks.is_empty(), "{}", render(&mission.remarks, false));
     let actuators = mission.equipment(0).actuators;
     assert_eq!(
-        (actuators.wheels.len(), actuators.gyros.len(), actuators.thrusters.len()),
+        (actuators.wheels.len(), actuators.cmgs.len(), actuators.thrusters.len()),
         (1, 4, 12)
     );
 }
@@ -173,19 +173,19 @@ fn a_model_that_is_not_in_the_catalogue_is_answered_with_one_that_is() {
 
 #[test]
 fn a_unit_that_is_not_there_cannot_fail() {
-    let words = ["no wheel, gyro or thruster called \"g2\"", "did you mean \"g-2\"?"];
+    let words = ["no wheel, CMG or thruster called \"g2\"", "did you mean \"g-2\"?"];
     assert_says("unit = \"g-2\"", "unit = \"g2\"", &words);
     let nothing = format!(
         "name = \"small\"\nvehicle = \"atlas-class\"\n[[failure]]\nunit = \"w1\"\nkind = \"dead\"\n\
          at_s = 1.0\n[[phase]]\nname = \"hold\"\n{}",
         "hold = { duration_s = 10.0 }\n"
     );
-    assert_refused(&nothing, "unit", &["there is no wheel, gyro or thruster at all"]);
+    assert_refused(&nothing, "unit", &["there is no wheel, CMG or thruster at all"]);
 }
 
 #[test]
 fn a_unit_fails_in_the_way_of_its_kind() {
-    let words = ["g-2 cannot fail in this way", "a gyro \"stuck\""];
+    let words = ["g-2 cannot fail in this way", "a CMG \"stuck\""];
     assert_says("kind = \"stuck\"", "kind = \"dead\"", &words);
     assert_says(
         "kind = \"stuck\"",
@@ -193,8 +193,8 @@ fn a_unit_fails_in_the_way_of_its_kind() {
         &["\"stucked\"", "did you mean \"stuck\"?"],
     );
     assert_says("at_s = 3.0", "at_s = -3.0", &["`at_s` must not be below zero, found -3"]);
-    let words = ["`told_after_s` must not be below zero"];
-    assert_says("told_after_s = 0.5", "told_after_s = -0.5", &words);
+    let words = ["`reported_after_s` must not be below zero"];
+    assert_says("reported_after_s = 0.5", "reported_after_s = -0.5", &words);
 }
 
 #[test]
@@ -225,11 +225,11 @@ fn unloading_takes_thrusters_and_something_to_empty() {
     assert_refused(&no_thrusters, place, &["unloading takes thrusters: there are none"]);
     let only_thrusters: String = bare
         .lines()
-        .filter(|line| !line.starts_with("wheel =") && !line.starts_with("gyro_array ="))
+        .filter(|line| !line.starts_with("wheel =") && !line.starts_with("cmg_array ="))
         .map(|line| line.to_owned() + "\n")
         .collect();
     let only_thrusters = part(&only_thrusters, "[[failure]]");
-    let words = ["unloading takes wheels or gyros to empty: there are none"];
+    let words = ["unloading takes wheels or CMGs to empty: there are none"];
     assert_refused(&only_thrusters, place, &words);
     let unlimited = bare.replace("[control]\n", "[control]\nactuators = \"unlimited\"\n");
     assert!(answer(&unlimited).is_ok(), "a comparison with ideal torque keeps its laws");
@@ -243,7 +243,7 @@ fn fitted_actuators_and_sensors_must_be_there() {
              [control]\n{control}\n[[phase]]\nname = \"hold\"\nhold = {{ duration_s = 10.0 }}\n"
         )
     };
-    let words = ["atlas-class has no wheels, gyros or thrusters", "add [actuators]"];
+    let words = ["atlas-class has no wheels, CMGs or thrusters", "add [actuators]"];
     assert_refused(&bare("actuators = \"fitted\""), "actuators", &words);
     assert_refused(&bare("sensing = \"fitted\""), "sensing", &["has no sensors", "add [sensors]"]);
     let words = ["only thrusters can hold a position", "[[actuators.thruster]]"];
@@ -281,7 +281,7 @@ fn a_step_that_is_too_long_for_a_servo_is_refused() {
     let fast =
         "skew_deg = 53.13, servo_bandwidth_rad_s = 1000.0, source.assumed = \"for this test\" }";
     let words = [
-        "a step of 0.005 s is too long for the servo of gyro g-4, 1000 rad/s",
+        "a step of 0.005 s is too long for the servo of CMG g-4, 1000 rad/s",
         "within 0.001 s",
         "set world.step_s to 0.001 or less",
     ];
@@ -369,4 +369,35 @@ fn actuators_without_a_source_are_read_with_the_catalogues() {
     let mission = answer(&text).unwrap_or_else(|c| panic!("{}", render(&c, false)));
     let sources = &mission.equipment(0).provenance;
     assert!(sources.iter().any(|p| p.source.contains("Honeywell")), "{sources:?}");
+}
+
+#[test]
+fn names_that_control_moment_gyros_had_are_answered_with_those_they_have() {
+    assert_says(
+        "cmg_array = ",
+        "gyro_array = ",
+        &["unknown key `gyro_array`", "`gyro_array` was renamed: write `cmg_array`"],
+    );
+    for (old, value) in [("gyros", "\"pseudo-inverse\""), ("gyro_null_gain_rad_s", "0.1")] {
+        let new = old.replace("gyro", "cmg");
+        let line = format!("[control.steering]\n{old} = {value}\n\n[sensors]");
+        let help = format!("`{old}` was renamed: write `{new}`");
+        assert_refused(&changed("[sensors]", &line), &format!("{old} ="), &[&help]);
+    }
+    let asked = "requirements = [\"gyros.rate_use.max <= 50 %\"]\n\n[initial]";
+    let help = "gyros.rate_use.max was renamed: write cmgs.rate_use.max";
+    assert_refused(&changed("[initial]", asked), "gyros.rate_use", &[help]);
+}
+
+#[test]
+fn keys_that_were_renamed_are_answered_with_their_new_names() {
+    let renamed = |old: &str, new: &str| format!("`{old}` was renamed: write `{new}`");
+    let help = renamed("told_after_s", "reported_after_s");
+    assert_says("reported_after_s", "told_after_s", &[&help]);
+    let help = renamed("feel_tool_wrench", "measure_tool_wrench");
+    assert_says("[control]", "[control]\nfeel_tool_wrench = true", &[&help]);
+    let phase = "[[phase]]\nname = \"lean\"\nrelieve = { duration_s = 9.0 }\n\n[[phase]]";
+    let text =
+        changed("[[phase]]", phase).replace("[control]", "[control]\nmeasure_tool_wrench = true");
+    assert_refused(&text, "relieve =", &[&renamed("relieve", "unload_by_posture")]);
 }

@@ -115,7 +115,7 @@ fn shown(default: &serde_json::Value) -> String {
 
 #[test]
 fn fitted_units_that_do_nothing_are_remarked_on() {
-    let units = "[actuators]\nname = \"g\"\n[[actuators.gyro_array]]\nname = \"g\"\n\
+    let units = "[actuators]\nname = \"g\"\n[[actuators.cmg_array]]\nname = \"g\"\n\
                  model = \"airbus-cmg-15-45s\"\narrangement = \"pyramid\"\nskew_deg = 53.13\n";
     let remarks = |text: &str| -> Vec<String> {
         read(&SHORT.replace("WORLD", text)).remarks.iter().map(|c| c.message.clone()).collect()

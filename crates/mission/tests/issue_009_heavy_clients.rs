@@ -42,7 +42,7 @@ arm_law = "LAW"
 CONTROL
 [actuators]
 name = "four"
-[[actuators.gyro_array]]
+[[actuators.cmg_array]]
 name = "g"
 model = "airbus-cmg-15-45s"
 arrangement = "pyramid"
@@ -56,7 +56,7 @@ fn client(mass: &str, law: &str, control: &str) -> String {
     CLIENT.replace("MASS", mass).replace("LAW", law).replace("CONTROL", control)
 }
 
-/// At default gains on gyros of the catalogue, with the motion of joint4 from 107.4 to 108 deg in 40 s.
+/// At default gains on CMGs of the catalogue, with the motion of joint4 from 107.4 to 108 deg in 40 s.
 /// Before the feedback was fed forward, joint6 rattled at its limit from 3000 kg on, with the base up
 /// to 0.09 deg off. Measured at worst 5.5e-5 deg of the base, 0.39 % of a drive, 3.0e-6 mm at the tool.
 #[test]
@@ -111,7 +111,7 @@ fn a_loop_too_fast_for_its_rate_is_refused_with_the_nearest_good_values() {
         (
             &fitted,
             [
-                "attitude 150 rad/s at 100 Hz, limit 60 rad/s by the servos of the gyros, margin 0.4",
+                "attitude 150 rad/s at 100 Hz, limit 60 rad/s by the servos of the CMGs, margin 0.4",
                 "set control.attitude_bandwidth_rad_s to 30 or less for a margin of 2",
             ],
         ),

@@ -50,8 +50,8 @@ fn a_longer_flight_by_wheels_allocates_no_more() {
 }
 
 #[test]
-fn a_longer_flight_by_gyros_allocates_no_more() {
-    assert_length_costs_nothing("base-control/gyros.toml", SETTLE, LONGER);
+fn a_longer_flight_by_cmgs_allocates_no_more() {
+    assert_length_costs_nothing("base-control/cmgs.toml", SETTLE, LONGER);
 }
 
 /// They fire from the wrench at 5 s on, and the flight computer is told of propellant that has gone.

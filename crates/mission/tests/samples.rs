@@ -51,7 +51,7 @@ fn requiring_everything(text: &str) -> String {
 }
 
 /// Ideal actuators, a grasp of something that is not well known, thrusters with noise and propellant,
-/// gyros with noisy sensors.
+/// CMGs with noisy sensors.
 #[test]
 fn a_sample_flown_for_its_verdicts_has_every_bit_of_the_one_flown_for_a_report() {
     for file in [

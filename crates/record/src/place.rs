@@ -113,7 +113,7 @@ impl Place {
     fn former(&self) -> PathBuf {
         self.beside("former")
     }
-    /// A folder of the name of a result is somebody's, not a former result.
+    /// A folder of the name of a result is not a former result, and is not replaced.
     fn check_names(&self) -> Result<(), RecordError> {
         let in_the_way = RESULTS.iter().map(|name| self.dir.join(name)).find(|path| path.is_dir());
         match in_the_way {

@@ -9,15 +9,15 @@ use wrasse_study::{
     TaskOutcome, singular_surfaces,
 };
 
-fn gyros() -> Vec<ControlMomentGyro<f64>> {
+fn cmgs() -> Vec<ControlMomentGyro<f64>> {
     let sides = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
-    let gyro = |(x, y): (f64, f64)| ControlMomentGyro {
+    let cmg = |(x, y): (f64, f64)| ControlMomentGyro {
         gimbal_axis_B: vec3(0.8 * x, 0.8 * y, 0.6),
         spin_axis_B: vec3(-y, x, 0.0),
         momentum: 75.0,
         ..Default::default()
     };
-    sides.into_iter().map(gyro).collect()
+    sides.into_iter().map(cmg).collect()
 }
 
 fn some(plain: f64, best: f64) -> Bounds<Option<f64>> {
@@ -43,9 +43,9 @@ fn cards() -> Vec<SetCard> {
     let mut all = vec![
         card("ideal", SetKind::Ideal, None),
         card("4 <wheels>", SetKind::Wheels, Some(wheels)),
-        card("4 gyros 75 N·m·s", SetKind::Gyros, Some(Bounds { plain: 86.6, best: 236.6 })),
+        card("4 CMGs 75 N·m·s", SetKind::Cmgs, Some(Bounds { plain: 86.6, best: 236.6 })),
     ];
-    all[2].surfaces = singular_surfaces(&gyros(), 6);
+    all[2].surfaces = singular_surfaces(&cmgs(), 6);
     all
 }
 
@@ -72,17 +72,17 @@ fn task(name: &str, force: f64) -> TaskOutcome {
     let mut ideal = verdict("ideal", Answer::Yes, Answer::Yes);
     ideal.torque_nm = Bounds { plain: None, best: None };
     ideal.momentum_nms = ideal.torque_nm;
-    let mut gyros = verdict("4 gyros 75 N·m·s", Answer::Yes, Answer::WithSteering);
-    gyros.saturates_s = some(0.5, 237.0 / (1.75 * force));
-    gyros.torque_nm = some(84.0, 700.0);
-    gyros.flown = Some(Flown {
+    let mut cmgs = verdict("4 CMGs 75 N·m·s", Answer::Yes, Answer::WithSteering);
+    cmgs.saturates_s = some(0.5, 237.0 / (1.75 * force));
+    cmgs.torque_nm = some(84.0, 700.0);
+    cmgs.flown = Some(Flown {
         tool_error_mm: 0.41,
         tool_error_at_end_mm: 0.1,
         attitude_error_deg: 0.012,
         propellant_kg: None,
         requirements_hold: false,
         ended: None,
-        limit: Some("gyro 1 turns at its limit".into()),
+        limit: Some("CMG 1 turns at its limit".into()),
         closes: true,
     });
     let time: Vec<f64> = (0..=20).map(|k| 0.05 * f64::from(k)).collect();
@@ -98,7 +98,7 @@ fn task(name: &str, force: f64) -> TaskOutcome {
         gathered_nm: Some(1.75 * force),
         by_hand: Some(HandCheck { momentum: 350.0, torque: 350.0, how: "200 N at 1.75 m".into() }),
         tool_error_mm: 0.02,
-        verdicts: vec![ideal, verdict("4 <wheels>", Answer::No, Answer::Yes), gyros],
+        verdicts: vec![ideal, verdict("4 <wheels>", Answer::No, Answer::Yes), cmgs],
         demand: Demand {
             torque_B: vec![vec3(0.0, 0.0, 1.75 * force); 21],
             momentum_B: time.iter().map(|t| vec3(0.0, 0.0, -1.75 * force * t)).collect(),
@@ -122,7 +122,7 @@ fn sample() -> StudyOutcome {
         text: "name = \"sample\"".into(),
         version: "0.0.0".into(),
         seed: 1,
-        claim: "Gyros are needed.".into(),
+        claim: "CMGs are needed.".into(),
         mass_limit_kg: None,
         power_limit_w: None,
         flights: 4,
@@ -148,7 +148,7 @@ fn the_terminal_shows_demands_a_matrix_of_verdicts_flights_and_findings() {
     let verdicts: Vec<_> = lines.iter().filter(|l| l.contains("steer x4.1")).collect();
     assert_eq!(verdicts.len(), 2, "{table}");
     assert!(verdicts[0].contains("yes") && verdicts[0].contains("no T x4.1"));
-    assert!(table.contains("gyro 1 turns at its limit") && table.contains("FAIL"));
+    assert!(table.contains("CMG 1 turns at its limit") && table.contains("FAIL"));
     assert!(table.contains("where the claim holds: In 1 of 2 tasks."));
     assert!(table.ends_with("4 flights; their ledgers close\n"), "{table}");
 }
@@ -163,8 +163,8 @@ fn the_terminal_always_shows_what_the_sets_can_give_and_what_they_weigh() {
             let line = table.lines().find(|line| line.starts_with(name)).unwrap_or_default();
             line[name.len()..].split_whitespace().map(String::from).collect::<Vec<_>>()
         };
-        let gyros = ["86.6", "86.6", "86.6", "86.6", "86.6", "86.6", "237", "48", "-", "-"];
-        assert_eq!(row("4 gyros 75 N·m·s"), gyros, "{table}");
+        let cmgs = ["86.6", "86.6", "86.6", "86.6", "86.6", "86.6", "237", "48", "-", "-"];
+        assert_eq!(row("4 CMGs 75 N·m·s"), cmgs, "{table}");
         assert_eq!(row("ideal")[..2], ["any", "any"]);
     }
 }
@@ -177,7 +177,7 @@ fn a_ledger_that_stays_open_is_told_with_its_task_and_set_and_a_hint() {
         flown.closes = false;
     }
     let table = study_table(&outcome);
-    let told = "4 flights; LEDGER OPEN:\n  200 N lateral with 4 gyros 75 N·m·s\n";
+    let told = "4 flights; LEDGER OPEN:\n  200 N lateral with 4 CMGs 75 N·m·s\n";
     assert!(table.contains(told) && table.contains("a smaller world.step_s"), "{table}");
     assert_eq!(study_html(&outcome).matches("ledger open").count(), 1);
     // None of those flown in closed loop.
@@ -193,10 +193,10 @@ fn two_tasks_are_shown_with_a_line_for_each_set() {
     let mut outcome = sample();
     outcome.tasks.pop();
     let table = study_table(&outcome);
-    let gyros: Vec<_> = table.lines().filter(|l| l.starts_with("4 gyros")).collect();
+    let cmgs: Vec<_> = table.lines().filter(|l| l.starts_with("4 CMGs")).collect();
     // One more in the table of the sets.
-    assert_eq!(gyros.len(), 3, "{table}");
-    assert!(gyros[1].contains("steer") && gyros[1].contains("4.1") && gyros[1].contains("0.5"));
+    assert_eq!(cmgs.len(), 3, "{table}");
+    assert!(cmgs[1].contains("steer") && cmgs[1].contains("4.1") && cmgs[1].contains("0.5"));
 }
 
 #[test]

@@ -43,7 +43,7 @@ fn single_precision_is_within_one_unit_in_the_last_place_of_one() {
     assert!(worst < 1.0, "measured 0.48: {worst}");
 }
 
-/// Large, small, and what is no number: each lane as alone, whatever stands beside it.
+/// Large, small, and NaN: each lane as alone, whatever stands beside it.
 #[test]
 fn every_lane_has_the_bits_of_the_single_number() {
     let mut angles: Vec<f64> = rows().iter().map(|row| row[0]).collect();

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 /// A figure with pseudo-inverse steering, and with the best there is: with steering that avoids or
-/// escapes singularities. The two differ for gyros only.
+/// escapes singularities. The two differ for CMGs only.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Bounds<T> {
     /// With steering by the pseudo-inverse from the angles at the start.

@@ -2,7 +2,7 @@
 
 use crate::bounds::Bounds;
 use crate::envelope::{Piece, Solid, steering_reach, thruster_torque};
-use wrasse_hardware::{ControlMomentGyro, GYROS, Thruster};
+use wrasse_hardware::{CMGS, ControlMomentGyro, Thruster};
 use wrasse_spatial::Vec3;
 use wrasse_vehicle::Equipment;
 
@@ -11,18 +11,18 @@ use wrasse_vehicle::Equipment;
 pub struct Capability {
     /// Whether it gives any torque and holds any momentum: the reference.
     pub ideal: bool,
-    /// Momentum of wheels and gyros on top of what they hold at the start (N·m·s).
+    /// Momentum of wheels and CMGs on top of what they hold at the start (N·m·s).
     pub momentum: Solid,
     /// Momentum of the wheels alone, on top of what they hold at the start (N·m·s).
     pub wheel_momentum: Solid,
-    /// Torque of wheels and gyros with the gimbals at their best (N·m).
+    /// Torque of wheels and CMGs with the gimbals at their best (N·m).
     pub torque: Solid,
     /// Torque of the wheels alone (N·m).
     pub wheel_torque: Solid,
-    /// The gyros, and their gimbal angles at the start (rad).
-    pub gyros: Vec<ControlMomentGyro<f64>>,
+    /// The CMGs, and their gimbal angles at the start (rad).
+    pub cmgs: Vec<ControlMomentGyro<f64>>,
     /// Gimbal angles at the start (rad).
-    pub gimbal_angle: [f64; GYROS],
+    pub gimbal_angle: [f64; CMGS],
     /// The thrusters.
     pub thrusters: Vec<Thruster<f64>>,
     /// Centre of mass that thrusters turn the vehicle about, in the base's frame (m).
@@ -52,18 +52,18 @@ impl Capability {
                 axis: g.gimbal_axis_B,
                 radius: size(g),
             };
-            Solid { pieces: actuators.gyros.iter().map(disc).collect() }
+            Solid { pieces: actuators.cmgs.iter().map(disc).collect() }
         };
         let wheel_torque = Solid { pieces: torque_of_wheels.collect() };
         let wheel_momentum = Solid { pieces: momentum_of_wheels.collect() };
-        let held = Solid { pieces: held_by(&actuators.gyros, &equipment.gimbal_angle) };
+        let held = Solid { pieces: held_by(&actuators.cmgs, &equipment.gimbal_angle) };
         Self {
             ideal: false,
-            momentum: wheel_momentum.with(&rotors(|gyro| gyro.momentum)).with(&held),
+            momentum: wheel_momentum.with(&rotors(|cmg| cmg.momentum)).with(&held),
             wheel_momentum,
             torque: wheel_torque.with(&rotors(ControlMomentGyro::torque_limit)),
             wheel_torque,
-            gyros: actuators.gyros.to_vec(),
+            cmgs: actuators.cmgs.to_vec(),
             gimbal_angle: equipment.gimbal_angle,
             thrusters: actuators.thrusters.to_vec(),
             p_BScm_B,
@@ -71,11 +71,11 @@ impl Capability {
         }
     }
     /// Whether there is no end to the momentum that can be taken: that of thrusters leaves the vehicle.
-    /// Wheels and gyros beside them still have an end for what couples do not take.
+    /// Wheels and CMGs beside them still have an end for what couples do not take.
     pub fn is_unbounded(&self) -> bool {
         self.ideal || (!self.thrusters.is_empty() && self.momentum.is_empty())
     }
-    /// Whether thrusters stand beside wheels or gyros.
+    /// Whether thrusters stand beside wheels or CMGs.
     pub fn is_hybrid(&self) -> bool {
         !self.thrusters.is_empty() && !self.momentum.is_empty()
     }
@@ -89,15 +89,15 @@ impl Capability {
         Bounds { plain, best: self.torque.radius(d) + self.couple(d) }
     }
     /// Largest torque along the unit vector `d` at gimbal angles (N·m).
-    pub fn torque_at(&self, angles: &[f64; GYROS], d: Vec3<f64>) -> f64 {
+    pub fn torque_at(&self, angles: &[f64; CMGS], d: Vec3<f64>) -> f64 {
         if self.ideal {
             return f64::INFINITY;
         }
-        let turning = self.gyros.iter().zip(angles).map(|(gyro, &angle)| Piece::Segment {
-            half: gyro.torque_axis(angle) * gyro.torque_limit(),
+        let turning = self.cmgs.iter().zip(angles).map(|(cmg, &angle)| Piece::Segment {
+            half: cmg.torque_axis(angle) * cmg.torque_limit(),
         });
-        let gyros = Solid { pieces: turning.collect() };
-        self.wheel_torque.with(&gyros).radius(d) + self.couple(d)
+        let cmgs = Solid { pieces: turning.collect() };
+        self.wheel_torque.with(&cmgs).radius(d) + self.couple(d)
     }
     /// Most momentum along the unit vector `d` (N·m·s): with plain steering from the start, and up to
     /// the surface.
@@ -106,10 +106,10 @@ impl Capability {
             return Bounds::equal(f64::INFINITY);
         }
         let best = self.momentum.radius(d);
-        if self.gyros.is_empty() {
+        if self.cmgs.is_empty() {
             return Bounds::equal(best);
         }
-        let plain = steering_reach(&self.gyros, &self.gimbal_angle, d).momentum;
+        let plain = steering_reach(&self.cmgs, &self.gimbal_angle, d).momentum;
         Bounds { plain: (plain + self.wheel_momentum.radius(d)).min(best), best }
     }
     /// Largest torque of the thrusters: a couple, or with the force that comes of it if the set can make
@@ -123,10 +123,10 @@ impl Capability {
     }
 }
 
-/// What gyros hold already: what is left is counted from there. Nothing where it is round-off.
-fn held_by(gyros: &[ControlMomentGyro<f64>], angles: &[f64; GYROS]) -> Vec<Piece> {
-    let all: f64 = gyros.iter().map(|gyro| gyro.momentum).sum();
-    let each = gyros.iter().zip(angles).map(|(gyro, &a)| gyro.spin_axis(a) * gyro.momentum);
+/// What CMGs hold already: what is left is counted from there. Nothing where it is round-off.
+fn held_by(cmgs: &[ControlMomentGyro<f64>], angles: &[f64; CMGS]) -> Vec<Piece> {
+    let all: f64 = cmgs.iter().map(|cmg| cmg.momentum).sum();
+    let each = cmgs.iter().zip(angles).map(|(cmg, &a)| cmg.spin_axis(a) * cmg.momentum);
     let held = each.fold(Vec3::zero(), |sum, h| sum + h);
     if held.norm() > 1e-9 * all { vec![Piece::Shift { by: -held }] } else { vec![] }
 }
@@ -159,10 +159,10 @@ mod tests {
 
     /// From zero angles the pyramid gives 2 cos β of torque and of momentum along x, at best 2 + 2 cos β.
     #[test]
-    fn gyros_reach_less_with_plain_steering_than_at_most() {
+    fn cmgs_reach_less_with_plain_steering_than_at_most() {
         let mut equipment = Equipment::default();
-        let gyros = pyramid(0.6, 50.0).map(|gyro| ControlMomentGyro { rate_limit: 0.8, ..gyro });
-        equipment.actuators.gyros = List::new(&gyros);
+        let cmgs = pyramid(0.6, 50.0).map(|cmg| ControlMomentGyro { rate_limit: 0.8, ..cmg });
+        equipment.actuators.cmgs = List::new(&cmgs);
         let capability = Capability::of(&equipment, Vec3::zero());
         let (torque, momentum) = (capability.torque_along(X), capability.momentum_along(X));
         // Measured 0.
@@ -179,12 +179,12 @@ mod tests {
 
     /// Two of the four gimbals turned against each other tilt two rotors the same way.
     #[test]
-    fn gyros_that_hold_momentum_at_the_start_have_less_left_one_way() {
+    fn cmgs_that_hold_momentum_at_the_start_have_less_left_one_way() {
         let mut equipment = Equipment::default();
-        equipment.actuators.gyros = List::new(&pyramid(0.6, 50.0));
+        equipment.actuators.cmgs = List::new(&pyramid(0.6, 50.0));
         let at_rest = Capability::of(&equipment, Vec3::zero()).momentum_along(X).best;
         equipment.gimbal_angle[..4].copy_from_slice(&[0.5, 0.0, -0.5, 0.0]);
-        let held = equipment.actuators.gyros.iter().zip(equipment.gimbal_angle);
+        let held = equipment.actuators.cmgs.iter().zip(equipment.gimbal_angle);
         let held = held.fold(Vec3::zero(), |sum, (g, a)| sum + g.spin_axis(a) * g.momentum);
         let capability = Capability::of(&equipment, Vec3::zero());
         let d = held * (1.0 / held.norm());
@@ -195,9 +195,9 @@ mod tests {
     }
 
     #[test]
-    fn wheels_beside_gyros_add_what_they_hold_to_plain_steering() {
+    fn wheels_beside_cmgs_add_what_they_hold_to_plain_steering() {
         let mut equipment = Equipment::default();
-        equipment.actuators.gyros = List::new(&pyramid(0.6, 50.0));
+        equipment.actuators.cmgs = List::new(&pyramid(0.6, 50.0));
         let alone = Capability::of(&equipment, Vec3::zero()).momentum_along(X).plain;
         equipment.actuators.wheels = List::new(&[ReactionWheel {
             axis_B: X,

@@ -73,7 +73,7 @@ struct WrenchFile {
 struct PhaseFile {
     move_tool: Option<MoveFile>,
     move_joints: Option<OtherFile>,
-    relieve: Option<OtherFile>,
+    unload_by_posture: Option<OtherFile>,
     grasp: Option<OtherFile>,
     release: Option<OtherFile>,
 }
@@ -148,7 +148,7 @@ impl TaskFile {
 
 impl PhaseFile {
     fn moves(&self) -> bool {
-        self.move_joints.is_some() || self.relieve.is_some()
+        self.move_joints.is_some() || self.unload_by_posture.is_some()
     }
     fn changes_the_load(&self) -> bool {
         self.grasp.is_some() || self.release.is_some()

@@ -53,10 +53,10 @@ pub enum SetKind {
     /// Reaction wheels alone.
     Wheels,
     /// Control moment gyros, with or without wheels.
-    Gyros,
+    Cmgs,
     /// Thrusters alone.
     Thrusters,
-    /// Thrusters beside wheels or gyros.
+    /// Thrusters beside wheels or CMGs.
     Hybrid,
     /// None at all.
     Nothing,
@@ -87,7 +87,7 @@ pub struct SetCard {
     pub momentum_everywhere_nms: Option<f64>,
     /// Where its numbers come from.
     pub provenance: Vec<ProvenanceRow>,
-    /// Its momentum as surfaces, the outermost first; none without wheels and gyros.
+    /// Its momentum as surfaces, the outermost first; none without wheels and CMGs.
     #[serde(skip)]
     pub surfaces: Vec<Mesh>,
 }

@@ -113,12 +113,12 @@ fn arranged(kind: Catalogue, unit: &HardwareEntry, vehicle: &Vehicle) -> SetRow 
     put(&mut set, &["control", "arm_law"], "attitude-held".into());
     put(&mut set, &["control", "actuators"], "fitted".into());
     put(&mut set, &["actuators", "name"], name.as_str().into());
-    for list in ["wheel", "gyro", "gyro_array", "thruster", "thruster_set"] {
+    for list in ["wheel", "cmg", "cmg_array", "thruster", "thruster_set"] {
         put(&mut set, &["actuators", list], Value::Array(vec![]));
     }
     let (list, units) = match kind {
         Catalogue::Wheels => ("wheel", wheels(&unit.name)),
-        Catalogue::Cmgs => ("gyro_array", vec![pyramid(&unit.name)]),
+        Catalogue::Cmgs => ("cmg_array", vec![pyramid(&unit.name)]),
         Catalogue::Thrusters => {
             // Couples made of single pulses push a little.
             put(&mut set, &["control", "position_hold", "bandwidth_rad_s"], 0.3.into());
@@ -141,7 +141,7 @@ fn wheels(model: &str) -> Vec<Value> {
 }
 
 fn pyramid(model: &str) -> Value {
-    unit("gyro", model, &[("arrangement", "pyramid".into()), ("skew_deg", 54.7356.into())])
+    unit("cmg", model, &[("arrangement", "pyramid".into()), ("skew_deg", 54.7356.into())])
 }
 
 fn corners(model: &str, vehicle: &Vehicle) -> Value {

@@ -125,12 +125,12 @@ fn capability(study: &Study, case: usize, p_BScm_B: Vec3<f64>) -> Capability {
 
 fn kind(equipment: &Equipment) -> SetKind {
     let actuators = &equipment.actuators;
-    let stores = !(actuators.wheels.is_empty() && actuators.gyros.is_empty());
+    let stores = !(actuators.wheels.is_empty() && actuators.cmgs.is_empty());
     match (actuators.thrusters.is_empty(), stores) {
         (false, true) => SetKind::Hybrid,
         (false, false) => SetKind::Thrusters,
-        (true, true) if actuators.gyros.is_empty() => SetKind::Wheels,
-        (true, true) => SetKind::Gyros,
+        (true, true) if actuators.cmgs.is_empty() => SetKind::Wheels,
+        (true, true) => SetKind::Cmgs,
         (true, false) => SetKind::Nothing,
     }
 }
@@ -154,10 +154,10 @@ fn provenance(equipment: &Equipment) -> Vec<ProvenanceRow> {
     equipment.provenance.iter().map(row).collect()
 }
 
-/// The momentum of a set as surfaces: singular surfaces of gyros, faces of wheels.
+/// The momentum of a set as surfaces: singular surfaces of CMGs, faces of wheels.
 fn surfaces(capability: &Capability) -> Vec<Mesh> {
-    if !capability.gyros.is_empty() {
-        return singular_surfaces(&capability.gyros, RINGS);
+    if !capability.cmgs.is_empty() {
+        return singular_surfaces(&capability.cmgs, RINGS);
     }
     let mut mesh = Mesh::default();
     for facet in facets(&capability.momentum.centred()) {

@@ -107,14 +107,14 @@ fn each_demand_agrees_with_its_hand_check() {
 #[test]
 fn torque_momentum_and_duration_each_decide() {
     let outcome = judged();
-    // 500 kg with a quick ramp: every set of wheels lacks the torque, gyros from 40 N·m·s on suffice.
+    // 500 kg with a quick ramp: every set of wheels lacks the torque, CMGs from 40 N·m·s on suffice.
     let moving = task(outcome, "offset, 500 kg, ramp 1.25 s");
     for wheels in ["4 wheels 0.1", "4 wheels 0.2", "4 wheels 1 "] {
         assert_eq!(verdict(moving, wheels).torque, Answer::No);
         assert!(verdict(moving, wheels).slower.plain.unwrap() > 5.0);
     }
-    assert_eq!(verdict(moving, "4 gyros 15").momentum, Answer::No);
-    assert_eq!(verdict(moving, "4 gyros 75").suffices, Answer::Yes);
+    assert_eq!(verdict(moving, "4 CMGs 15").momentum, Answer::No);
+    assert_eq!(verdict(moving, "4 CMGs 75").suffices, Answer::Yes);
     // The arm alone, slowly: wheels do, so the claim does not hold everywhere.
     assert_eq!(
         verdict(task(outcome, "offset, 0 kg, ramp 5 s"), "4 wheels 1 ").suffices,
@@ -122,8 +122,8 @@ fn torque_momentum_and_duration_each_decide() {
     );
     // 200 N square to a lever of 1.75 m: beyond 4 x 75 N·m·s, and 4 x 250 N·m·s last seconds.
     let pushed = task(outcome, "offset, 200 N lateral");
-    assert_eq!(verdict(pushed, "4 gyros 75").torque, Answer::No);
-    let strong = verdict(pushed, "4 gyros 250");
+    assert_eq!(verdict(pushed, "4 CMGs 75").torque, Answer::No);
+    let strong = verdict(pushed, "4 CMGs 250");
     // The torque is there until the gimbals near the surface.
     assert_eq!((strong.torque, strong.momentum), (Answer::WithSteering, Answer::No));
     let full = strong.saturates_s.best.unwrap();
@@ -137,7 +137,7 @@ fn torque_momentum_and_duration_each_decide() {
     assert!(pushed.verdicts.iter().all(|v| v.slower.plain.is_none()));
     let thrusters = verdict(pushed, "24 thrusters 200");
     assert!(thrusters.fuel_in_place_kg.unwrap() > thrusters.fuel_kg.unwrap());
-    let holds = outcome.findings.iter().find(|f| f.about == "gyros are needed").unwrap();
+    let holds = outcome.findings.iter().find(|f| f.about == "CMGs are needed").unwrap();
     assert!(holds.tasks.contains(&moving.name) && !holds.tasks.contains(&axial.name));
 }
 
@@ -148,9 +148,9 @@ fn sets_that_suffice_keep_the_tool_and_sets_that_do_not_lose_it() {
     let pushed = task(outcome, "offset, flown: 200 N for 1 s");
     let error = |set: &str| verdict(pushed, set).flown.as_ref().unwrap().tool_error_mm;
     // Measured 0.92, 9.2, 48, 744 mm.
-    assert!(error("ideal") < 1.0 && error("4 gyros 250") < 20.0);
-    assert!(error("4 gyros 75") > 20.0 && error("4 wheels 0.2") > 500.0);
-    assert_eq!(verdict(pushed, "4 gyros 250").suffices, Answer::Yes);
+    assert!(error("ideal") < 1.0 && error("4 CMGs 250") < 20.0);
+    assert!(error("4 CMGs 75") > 20.0 && error("4 wheels 0.2") > 500.0);
+    assert_eq!(verdict(pushed, "4 CMGs 250").suffices, Answer::Yes);
     assert_eq!(verdict(pushed, "4 wheels 0.2").suffices, Answer::No);
     for task in &outcome.tasks {
         for verdict in &task.verdicts {
@@ -161,7 +161,7 @@ fn sets_that_suffice_keep_the_tool_and_sets_that_do_not_lose_it() {
     assert!(outcome.closes);
     let kinds: Vec<_> = outcome.sets.iter().map(|set| set.kind).collect();
     assert_eq!(kinds[0], SetKind::Ideal);
-    assert_eq!(kinds.iter().filter(|k| **k == SetKind::Gyros).count(), 5);
+    assert_eq!(kinds.iter().filter(|k| **k == SetKind::Cmgs).count(), 5);
 }
 
 /// Drives of 60 N·m that were scaled down for every pulse of 200 N lost the arm: 204 mm, and 2 m with the
@@ -232,9 +232,9 @@ fn the_book_tells_what_the_study_finds() {
 fn the_book_says_where_the_claim_holds_as_the_study_does() {
     let (outcome, mut page) = (judged(), Page::open(PAGE));
     let all = f64::from(u32::try_from(outcome.tasks.len()).expect("a few"));
-    let needed = "gyros are needed";
+    let needed = "CMGs are needed";
     page.says(
-        "In {} of {} tasks a set of gyros suffices and no set of wheels does. Thrusters suffice in all \
+        "In {} of {} tasks a set of CMGs suffices and no set of wheels does. Thrusters suffice in all \
          of these too, for up to {} g",
         &[tasks_about(outcome, needed), all, number_in(outcome, needed, "g")],
     );
@@ -255,17 +255,17 @@ fn the_book_says_where_the_claim_holds_as_the_study_does() {
     page.says(words, &[axial.peak_torque_nm, lever * 1e3, full]);
     let pushed = task(outcome, "offset, 200 N lateral");
     let full = |set: &str| verdict(pushed, set).saturates_s.best.unwrap();
-    let words = "200 N fill four gyros of 75 N·m·s in {} s and four of 250 N·m·s in {} s";
-    page.says(words, &[full("4 gyros 75"), full("4 gyros 250")]);
-    let words = "Four gyros of 75 N·m·s cannot give the {} N·m at all. In {} of {} tasks";
-    page.says(words, &[pushed.peak_torque_nm, tasks_about(outcome, "not even gyros"), all]);
+    let words = "200 N fill four CMGs of 75 N·m·s in {} s and four of 250 N·m·s in {} s";
+    page.says(words, &[full("4 CMGs 75"), full("4 CMGs 250")]);
+    let words = "Four CMGs of 75 N·m·s cannot give the {} N·m at all. In {} of {} tasks";
+    page.says(words, &[pushed.peak_torque_nm, tasks_about(outcome, "not even CMGs"), all]);
     for axes in ["axial", "lateral"] {
         let couple = task(outcome, &format!("offset, 20 N·m {axes}"));
-        for set in ["4 gyros 40", "4 gyros 75"] {
+        for set in ["4 CMGs 40", "4 CMGs 75"] {
             assert_eq!(verdict(couple, set).suffices, Answer::WithSteering);
         }
     }
-    page.gives("20 N·m for 5 s across the pyramid's axis are within the outer surface of four gyros of 40 or 75 N·m·s");
+    page.gives("20 N·m for 5 s across the pyramid's axis are within the outer surface of four CMGs of 40 or 75 N·m·s");
     let away = number_in(outcome, "no torque reacts a force", "mm") * 1e-3;
     let fuel = verdict(pushed, "24 thrusters 200").fuel_in_place_kg.unwrap();
     let words = "200 N push the free vehicle {} m away in 5 s. Only thrusters or a grapple react a \
@@ -294,11 +294,11 @@ fn the_book_tells_the_errors_of_the_tool_in_closed_loop() {
     page.gives("500 kg go 1 m in inertial space");
     page.gives("a proportional and derivative law of 1 rad/s");
     let push = "200 N for 1 s";
-    let words = "The push of 200 N for 1 s tells apart what the envelope does not: gyros of 125 N·m·s \
+    let words = "The push of 200 N for 1 s tells apart what the envelope does not: CMGs of 125 N·m·s \
                  suffice by torque and momentum if they are steered well, and the tool is {} mm off for \
                  a while, with gimbals at their rate limit; 250 N·m·s bring that down to {} mm";
-    page.says(words, &[error(push, "4 gyros 125"), error(push, "4 gyros 250")]);
-    page.gives("| task | s | ideal | wheels 0.1 | wheels 0.2 | wheels 1 | gyros 15 | gyros 40 | gyros 75 | gyros 125 | gyros 250 | thr. 22 | thr. 200 |");
+    page.says(words, &[error(push, "4 CMGs 125"), error(push, "4 CMGs 250")]);
+    page.gives("| task | s | ideal | wheels 0.1 | wheels 0.2 | wheels 1 | CMGs 15 | CMGs 40 | CMGs 75 | CMGs 125 | CMGs 250 | thr. 22 | thr. 200 |");
     page.leaves_nothing_open("## What the tool says", "");
     page.holds();
 }

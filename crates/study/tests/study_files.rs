@@ -42,10 +42,10 @@ axis = "set"
 name = "ideal"
 
 [[compare.row]]
-name = "gyros"
+name = "cmgs"
 set.world.base_attitude = "controlled"
 set.control.actuators = "fitted"
-set.actuators.gyro_array = [{ name = "g", model = "airbus-cmg-75-75s", arrangement = "pyramid", skew_deg = 53.13 }]
+set.actuators.cmg_array = [{ name = "g", model = "airbus-cmg-75-75s", arrangement = "pyramid", skew_deg = 53.13 }]
 
 [[compare.row]]
 name = "thrusters"
@@ -113,8 +113,11 @@ fn a_claim_of_an_unknown_kind_is_complained_of() {
     let with = |kind: &str| SMALL.replace("[study]", &format!("[study]\nclaim_is = {kind:?}"));
     let complaints = read_study("small.toml", &with("wheels-needed")).unwrap_err();
     let told = format!("{complaints:?}");
-    assert!(told.contains("gyros-needed") && complaints[0].span.is_some(), "{told}");
-    assert!(read_study("small.toml", &with("gyros-needed")).is_ok());
+    assert!(told.contains("cmgs-needed") && complaints[0].span.is_some(), "{told}");
+    let complaints = read_study("small.toml", &with("gyros-needed")).unwrap_err();
+    let help = complaints[0].help.as_deref();
+    assert_eq!(help, Some("\"gyros-needed\" was renamed: write \"cmgs-needed\""));
+    assert!(read_study("small.toml", &with("cmgs-needed")).is_ok());
 }
 
 /// A mission's own failures, and what only its own units can do, are not asked of the sets.
@@ -163,10 +166,10 @@ fn mass_and_power_are_held_against_the_limits_of_the_study() {
     let study = read_study("small.toml", &SMALL.replace("[study]", limits)).unwrap();
     let outcome = size(&study, 2, &mut |_| {});
     assert_eq!((outcome.mass_limit_kg, outcome.power_limit_w), (Some(100.0), Some(1e6)));
-    let gyros = &outcome.sets[1];
+    let cmgs = &outcome.sets[1];
     // Four of them weigh more than 100 kg together.
-    assert!(gyros.mass_kg.unwrap() > 100.0, "{gyros:?}");
-    assert_eq!((gyros.within_mass_limit, gyros.within_power_limit), (Some(false), Some(true)));
+    assert!(cmgs.mass_kg.unwrap() > 100.0, "{cmgs:?}");
+    assert_eq!((cmgs.within_mass_limit, cmgs.within_power_limit), (Some(false), Some(true)));
     assert_eq!(outcome.sets[0].within_mass_limit, None);
     assert_eq!(sized(2).sets[1].within_mass_limit, None);
 }

@@ -34,7 +34,7 @@ pub struct Vehicle {
     pub postures: Vec<Posture>,
     /// The ideal attitude actuator, if the file has one.
     pub attitude_actuator: Option<AttitudeActuator<f64>>,
-    /// Wheels, gyros and thrusters; none if the file has none.
+    /// Wheels, CMGs and thrusters; none if the file has none.
     pub equipment: Equipment,
     /// What attitude and joints are felt with; perfect if the file does not say.
     pub sensors: Sensors<f64>,

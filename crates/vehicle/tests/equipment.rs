@@ -27,7 +27,7 @@ fn equipment(actuators: &str) -> Equipment {
 
 fn array(arrangement: &str) -> Equipment {
     equipment(&format!(
-        "[[gyro_array]]\nname = \"a\"\nmodel = \"airbus-cmg-15-45s\"\narrangement = {arrangement}\n"
+        "[[cmg_array]]\nname = \"a\"\nmodel = \"airbus-cmg-15-45s\"\narrangement = {arrangement}\n"
     ))
 }
 
@@ -47,15 +47,15 @@ fn wheels_arrive_in_si_with_their_models_numbers_and_their_own() {
 }
 
 #[test]
-fn a_gyros_rate_follows_from_its_torque_and_momentum() {
+fn a_cmgs_rate_follows_from_its_torque_and_momentum() {
     let equipment = servicer().equipment;
-    let lone = &equipment.actuators.gyros[0];
+    let lone = &equipment.actuators.cmgs[0];
     assert_eq!((lone.spin_axis_B, lone.momentum), (vec3(0.0, -1.0, 0.0), 15.0));
     assert_eq!((lone.rate_limit, lone.torque_limit()), (2.0, 30.0));
     assert_eq!(equipment.gimbal_angle[0], 30.0_f64.to_radians());
     let names = ["lone", "cluster-1", "cluster-2", "cluster-3", "cluster-4"];
-    assert_eq!(equipment.gyro_names, names);
-    assert_eq!(equipment.actuators.gyros[4].rate_limit, 1.0);
+    assert_eq!(equipment.cmg_names, names);
+    assert_eq!(equipment.actuators.cmgs[4].rate_limit, 1.0);
 }
 
 #[test]
@@ -130,13 +130,13 @@ fn a_set_weighs_and_takes_what_its_units_say() {
 fn momentum(equipment: &Equipment, angles: &[f64]) -> Vec3<f64> {
     let mut all = [0.0; 8];
     all[..angles.len()].copy_from_slice(angles);
-    equipment.actuators.gyro_momentum(&all) * (1.0 / equipment.actuators.gyros[0].momentum)
+    equipment.actuators.cmg_momentum(&all) * (1.0 / equipment.actuators.cmgs[0].momentum)
 }
 
 /// Determinant of A Aᵀ, A the derivative of the momentum by the gimbal angles at the start (–).
 fn manipulability(equipment: &Equipment) -> f64 {
-    let gyros = equipment.actuators.gyros.iter().zip(equipment.gimbal_angle);
-    let columns: Vec<_> = gyros.map(|(gyro, angle)| gyro.torque_axis(angle)).collect();
+    let cmgs = equipment.actuators.cmgs.iter().zip(equipment.gimbal_angle);
+    let columns: Vec<_> = cmgs.map(|(cmg, angle)| cmg.torque_axis(angle)).collect();
     let row = |of: fn(&Vec3<f64>) -> f64| columns.iter().map(of).collect::<Vec<_>>();
     let rows = [row(|a| a.x), row(|a| a.y), row(|a| a.z)];
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
@@ -173,15 +173,15 @@ fn every_array_starts_without_momentum_and_can_make_torque_about_every_axis() {
     ];
     for (arrangement, count) in arrays {
         let array = array(arrangement);
-        assert_eq!(array.actuators.gyros.len(), count, "{arrangement}");
-        for gyro in array.actuators.gyros.iter() {
-            assert!(gyro.gimbal_axis_B.dot(gyro.spin_axis_B).abs() < 1e-15);
-            assert!((gyro.gimbal_axis_B.norm() - 1.0).abs() < 1e-15);
+        assert_eq!(array.actuators.cmgs.len(), count, "{arrangement}");
+        for cmg in array.actuators.cmgs.iter() {
+            assert!(cmg.gimbal_axis_B.dot(cmg.spin_axis_B).abs() < 1e-15);
+            assert!((cmg.gimbal_axis_B.norm() - 1.0).abs() < 1e-15);
         }
         let rest = momentum(&array, &array.gimbal_angle).norm();
         assert!(rest < 1e-15, "{arrangement}, measured 1.2e-16: {rest:e}");
         let volume = manipulability(&array);
-        // One gyro too few leaves none at all.
+        // One CMG too few leaves none at all.
         assert!(volume > 1.0, "{arrangement}, measured 1.18 to 13.97: {volume}");
     }
 }
@@ -189,7 +189,7 @@ fn every_array_starts_without_momentum_and_can_make_torque_about_every_axis() {
 #[test]
 fn a_box_is_two_crossed_pairs_of_parallel_gimbals() {
     let gimbals: Vec<_> =
-        array("\"box\"").actuators.gyros.iter().map(|g| g.gimbal_axis_B.to_array()).collect();
+        array("\"box\"").actuators.cmgs.iter().map(|g| g.gimbal_axis_B.to_array()).collect();
     let sides = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]];
     assert_eq!(gimbals, sides);
 }
@@ -197,11 +197,11 @@ fn a_box_is_two_crossed_pairs_of_parallel_gimbals() {
 #[test]
 fn a_roof_has_two_rows_of_parallel_gimbals() {
     let roof = array("\"roof\"\nskew_deg = 45\ncount = 6");
-    let gimbal = |k: usize| roof.actuators.gyros[k].gimbal_axis_B;
+    let gimbal = |k: usize| roof.actuators.cmgs[k].gimbal_axis_B;
     let (sin, cos) = Real::sin_cos(45.0_f64.to_radians());
     assert!((0..3).all(|k| gimbal(k) == vec3(0.0, sin, cos)));
     assert!((3..6).all(|k| gimbal(k) == vec3(0.0, -sin, cos)));
-    let spin = |k: usize| roof.actuators.gyros[k].spin_axis_B;
+    let spin = |k: usize| roof.actuators.cmgs[k].spin_axis_B;
     assert_eq!((spin(0), spin(3)), (vec3(1.0, 0.0, 0.0), vec3(-1.0, 0.0, 0.0)));
     let start = roof.gimbal_angle.map(f64::to_degrees);
     assert_eq!(start[..6], [-45.0, 0.0, 45.0, -45.0, 0.0, 45.0]);
@@ -211,7 +211,7 @@ fn a_roof_has_two_rows_of_parallel_gimbals() {
 fn an_array_turns_with_its_orientation() {
     let turned = array("\"pyramid\"\nskew_deg = 54.74\norientation.rpy_deg = [0, 90, 0]");
     let plain = array("\"pyramid\"\nskew_deg = 54.74");
-    for (a, b) in turned.actuators.gyros.iter().zip(plain.actuators.gyros.iter()) {
+    for (a, b) in turned.actuators.cmgs.iter().zip(plain.actuators.cmgs.iter()) {
         // A quarter turn about y takes z to x and x to -z.
         let about_y = |v: Vec3<f64>| vec3(v.z, v.y, -v.x);
         let both = |g: &ControlMomentGyro<f64>| (g.gimbal_axis_B, g.spin_axis_B);
@@ -306,7 +306,7 @@ fn every_unit_of_the_hardware_catalogue_can_be_named() {
                 ["[1, 0, 0]", "[0, 1, 0]", "[0, 0, 1]"].map(wheel).concat()
             }
             "control moment gyro" => {
-                format!("[[gyro_array]]\nname = \"a\"\nmodel = \"{name}\"\narrangement = \"box\"\n")
+                format!("[[cmg_array]]\nname = \"a\"\nmodel = \"{name}\"\narrangement = \"box\"\n")
             }
             "thruster" => format!(
                 "[[thruster_set]]\nname = \"t\"\nmodel = \"{name}\"\narrangement = \"box\"\n\

@@ -48,9 +48,9 @@ fn wheel(name: &str, axis: &str) -> String {
     )
 }
 
-fn gyro(name: &str, gimbal: &str, spin: &str) -> String {
+fn cmg(name: &str, gimbal: &str, spin: &str) -> String {
     format!(
-        "[[actuators.gyro]]\nname = \"{name}\"\nmodel = \"airbus-cmg-15-45s\"\ngimbal_axis = \
+        "[[actuators.cmg]]\nname = \"{name}\"\nmodel = \"airbus-cmg-15-45s\"\ngimbal_axis = \
          {gimbal}\nspin_axis = {spin}\n"
     )
 }
@@ -110,7 +110,7 @@ fn numbers_that_are_missing_are_named() {
     assert_said(
         &without,
         "error",
-        &["gyro 'lone' has no `momentum_nms`, no `gimbal_acceleration_limit_deg_s2`, no"],
+        &["CMG 'lone' has no `momentum_nms`, no `gimbal_acceleration_limit_deg_s2`, no"],
     );
 }
 
@@ -181,7 +181,7 @@ fn a_wheel_turns_and_starts_within_its_speed() {
 }
 
 #[test]
-fn wheels_and_gyros_that_do_not_span_name_the_missing_direction() {
+fn wheels_and_cmgs_that_do_not_span_name_the_missing_direction() {
     let two = wheel("a", "[1, 0, 0]") + &wheel("b", "[1, 1, 0]");
     let words = ["the wheels make torque in 2 of 3 dimensions: none about [0, 0, 1]"];
     assert_bus_says(&two, "error", &words);
@@ -192,25 +192,24 @@ fn wheels_and_gyros_that_do_not_span_name_the_missing_direction() {
         "error",
         &["in 1 of 3 dimensions: about [0, 1, 0] alone"],
     );
-    let parallel: String =
-        ["a", "b", "c"].map(|name| gyro(name, "[0, 3, 4]", "[1, 0, 0]")).concat();
-    assert_bus_says(&parallel, "error", &["the gyros make", "none about [0, 0.6, 0.8]"]);
+    let parallel: String = ["a", "b", "c"].map(|name| cmg(name, "[0, 3, 4]", "[1, 0, 0]")).concat();
+    assert_bus_says(&parallel, "error", &["the CMGs make", "none about [0, 0.6, 0.8]"]);
 }
 
 #[test]
-fn wheels_make_up_for_gyros_that_do_not_span() {
-    let pair = gyro("a", "[0, 0, 1]", "[1, 0, 0]") + &gyro("b", "[0, 0, 1]", "[0, 1, 0]");
+fn wheels_make_up_for_cmgs_that_do_not_span() {
+    let pair = cmg("a", "[0, 0, 1]", "[1, 0, 0]") + &cmg("b", "[0, 0, 1]", "[0, 1, 0]");
     let both = format!("{}{pair}{}", bus(), wheel("w", "[0, 0, 1]"));
     assert_eq!(said(&both), "");
 }
 
 #[test]
-fn gyros_that_start_singular_are_doubted() {
+fn cmgs_that_start_singular_are_doubted() {
     assert_bus_says(
-        "[[actuators.gyro_array]]\nname = \"box\"\nmodel = \"airbus-cmg-15-45s\"\narrangement = \
+        "[[actuators.cmg_array]]\nname = \"box\"\nmodel = \"airbus-cmg-15-45s\"\narrangement = \
          \"box\"\ngimbal_angles_deg = [0, 0, 0, 0]\n",
         "warning",
-        &["at the start the gyros are singular: about [0, 0, 1] alone"],
+        &["at the start the CMGs are singular: about [0, 0, 1] alone"],
     );
 }
 
@@ -220,18 +219,18 @@ fn an_array_is_given_by_what_its_arrangement_needs() {
         "skew_deg = 54.74\n",
         "",
         "error",
-        &["gyro array 'cluster' has no `skew_deg`: the angle between gimbal axes and z"],
+        &["CMG array 'cluster' has no `skew_deg`: the angle between gimbal axes and z"],
     );
     assert_says("skew_deg = 54.74", "skew_deg = 180", "error", &["between 0 and 180"]);
     assert_says("= \"pyramid\"", "= \"box\"", "error", &["`skew_deg`, which says nothing"]);
     assert_says("= \"pyramid\"", "= \"roof\"", "error", &["has no `count`"]);
-    assert_says("= \"pyramid\"", "= \"roof\"\ncount = 5", "error", &["has 5 gyros"]);
+    assert_says("= \"pyramid\"", "= \"roof\"\ncount = 5", "error", &["has 5 CMGs"]);
     assert_says("= \"pyramid\"", "= \"piramid\"", "error", &["did you mean \"pyramid\"?"]);
     assert_says(
         "skew_deg = 54.74",
         "skew_deg = 54.74\ngimbal_angles_deg = [1, 2, 3]",
         "error",
-        &["has 4 gyros and 3 gimbal angles"],
+        &["has 4 CMGs and 3 gimbal angles"],
     );
     assert_says("count = 12", "count = 14", "error", &["has 14 thrusters", "12, 16 or 24"]);
     assert_says("edges_m = [1.8,", "edges_m = [0,", "error", &["must be positive"]);
@@ -322,4 +321,15 @@ fn numbers_without_source_are_in_the_one_warning() {
 fn a_key_without_its_unit_is_told_the_unit() {
     assert_says("force_n = 20", "force = 20", "error", &["write `force_n`"]);
     assert_says("axis = [2, 0, 0]", "axes = [2, 0, 0]", "error", &["did you mean `axis`?"]);
+}
+
+/// The rate sensor keeps the word `gyro`.
+#[test]
+fn names_that_control_moment_gyros_had_are_answered_with_those_they_have() {
+    for (new, old) in [("[[actuators.cmg]]", "gyro"), ("[[actuators.cmg_array]]", "gyro_array")] {
+        let help = format!("`{old}` was renamed: write `{}`", old.replace("gyro", "cmg"));
+        assert_says(new, &new.replace("cmg", "gyro"), "error", &["unknown key", &help]);
+    }
+    let help = "\"gyro-class-125\" was renamed: write \"cmg-class-125\"";
+    assert_says("\"airbus-cmg-15-45s\"", "\"gyro-class-125\"", "error", &[help]);
 }

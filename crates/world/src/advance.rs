@@ -4,7 +4,7 @@ use crate::flow::Flow;
 use crate::free_flight::{add_vector, add_with_care};
 use crate::stepper::{Judged, Stepper, dormand_prince, equal_steps, runge_kutta_4};
 use crate::world::World;
-use wrasse_hardware::{GYROS, WHEELS};
+use wrasse_hardware::{CMGS, WHEELS};
 use wrasse_spatial::Vec3;
 
 /// A number that is no longer finite.
@@ -115,7 +115,7 @@ impl<const J: usize> World<J> {
         for i in 0..WHEELS {
             add(&mut s.wheel_momentum[i], d.wheel_momentum[i], &mut carry.wheel_momentum[i]);
         }
-        for i in 0..GYROS {
+        for i in 0..CMGS {
             add(&mut s.gimbal_angle[i], d.gimbal_angle[i], &mut carry.gimbal_angle[i]);
             add(&mut s.gimbal_rate[i], d.gimbal_rate[i], &mut carry.gimbal_rate[i]);
         }

@@ -74,7 +74,7 @@ impl<const J: usize> World<J> {
         self.command_equipment(actuators, (gone, period), cut);
     }
 
-    /// Set wheels, gyros and thrusters for a period (s), `gone` (s) after the last began. On a base that
+    /// Set wheels, CMGs and thrusters for a period (s), `gone` (s) after the last began. On a base that
     /// is held they do not act, whatever they are told.
     fn command_equipment(
         &mut self,
@@ -85,13 +85,13 @@ impl<const J: usize> World<J> {
         if self.base == BaseAttitude::Held {
             return;
         }
-        if !(self.wheels.is_empty() && self.gyros.count() == 0) {
+        if !(self.wheels.is_empty() && self.cmgs.count() == 0) {
             let w_NB_B = self.state().V_NB_B.angular;
             let s = &self.system;
             let speed = self.wheels.speeds(&s.wheel_momentum, w_NB_B);
             self.wheels.command(&told.wheel_torque, &speed, period, cut);
             let (angle, rate) = (&s.gimbal_angle, &s.gimbal_rate);
-            self.gyros.command(&told.gimbal_rate, angle, rate, w_NB_B, cut);
+            self.cmgs.command(&told.gimbal_rate, angle, rate, w_NB_B, cut);
         }
         let is_fed = self.tank.is_none_or(|tank| tank.mass > 0.0);
         self.thrusters.command(&told.thruster_on, (gone, period), is_fed, cut);

@@ -28,11 +28,11 @@ impl<const J: usize> World<J> {
         }
         match failure {
             Failure::Wheel(i) => self.wheels.break_motor(i),
-            Failure::Gimbal(i) if i < self.gyros.count() => {
+            Failure::Gimbal(i) if i < self.cmgs.count() => {
                 let had = core::mem::take(&mut self.system.gimbal_rate[i]);
                 self.carry.gimbal_rate[i] = 0.0;
                 // What the gimbal had is the bodies' now: the sum of both stays, and with it the state.
-                let impulse_B = self.gyros.jam(i, had);
+                let impulse_B = self.cmgs.jam(i, had);
                 self.jolt(impulse_B);
             }
             Failure::Gimbal(_) => {}
@@ -44,7 +44,7 @@ impl<const J: usize> World<J> {
     /// An angular impulse (N·m·s, base axes) that something inside gives the base at once. Joints that
     /// are driven by torque give way; prescribed joints keep their rates.
     ///
-    /// The base's twist follows from the momentum that wheels and gyros no longer hold; what is left
+    /// The base's twist follows from the momentum that wheels and CMGs no longer hold; what is left
     /// to find are the joint rates: `M Δν = impulse` is forward dynamics at rest.
     fn jolt(&mut self, impulse_B: Vec3<f64>) {
         let t = self.into_period;

@@ -1,7 +1,7 @@
 //! What moves in one step: the displacement of the whole state.
 
 use crate::stepper::{Displacement, Judged};
-use wrasse_hardware::{GYROS, WHEELS};
+use wrasse_hardware::{CMGS, WHEELS};
 use wrasse_spatial::{Real, Vec3};
 
 /// Displacement of the system's state over part of a step, or its rate.
@@ -17,15 +17,15 @@ pub struct Flow<const J: usize, T = f64> {
     pub p_NScm_N: Vec3<T>,
     /// Linear momentum, inertial axes (N·s).
     pub linear: Vec3<T>,
-    /// Angular momentum of bodies, wheels and gyros about their centre of mass, inertial axes
+    /// Angular momentum of bodies, wheels and CMGs about their centre of mass, inertial axes
     /// (N·m·s).
     pub angular: Vec3<T>,
     /// Momentum of each wheel about its own axis, as seen from inertial space (N·m·s).
     pub wheel_momentum: [T; WHEELS],
     /// Angle of each gimbal (rad).
-    pub gimbal_angle: [T; GYROS],
+    pub gimbal_angle: [T; CMGS],
     /// Rate of each gimbal (rad/s).
-    pub gimbal_rate: [T; GYROS],
+    pub gimbal_rate: [T; CMGS],
     /// Angular impulse of the attitude actuator on the bodies, inertial axes (N·m·s).
     pub from_actuator: Vec3<T>,
     /// Angular impulse from outside about the common centre of mass of the vehicle and the free
@@ -82,8 +82,8 @@ impl<const J: usize, T: Real> Displacement for Flow<J, T> {
             linear: o,
             angular: o,
             wheel_momentum: [T::zero(); WHEELS],
-            gimbal_angle: [T::zero(); GYROS],
-            gimbal_rate: [T::zero(); GYROS],
+            gimbal_angle: [T::zero(); CMGS],
+            gimbal_rate: [T::zero(); CMGS],
             from_actuator: o,
             from_outside: o,
             outside_impulse: o,

@@ -1,5 +1,5 @@
 //! A vehicle in free space with nothing bolted to it: how it moves and what moves it. The world adds
-//! wheels, gyros, thrusters and what pushes from outside.
+//! wheels, CMGs, thrusters and what pushes from outside.
 
 use crate::flow::Flow;
 use crate::setup::{BaseAttitude, Drive};

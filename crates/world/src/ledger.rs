@@ -24,8 +24,8 @@ pub struct Account<T = f64> {
     pub angular_scale: T,
     /// Of the angular momentum: what the wheels have beside the base, inertial axes (N·m·s).
     pub in_wheels: Vec3<T>,
-    /// Of the angular momentum: what the gyros have beside the base, inertial axes (N·m·s).
-    pub in_gyros: Vec3<T>,
+    /// Of the angular momentum: what the CMGs have beside the base, inertial axes (N·m·s).
+    pub in_cmgs: Vec3<T>,
     /// Common centre of mass (m).
     pub centre_of_mass: Vec3<T>,
 }
@@ -139,22 +139,22 @@ impl<const J: usize> World<J> {
         let energies = self.free.iter().map(FreeBody::kinetic_energy);
         let energy = energies.fold(kinetic_energy(&k), |sum, energy| sum + energy);
         let mut account = together(&self.robot, &own(&k), || self.free.iter().map(part), energy);
-        self.add_wheels_and_gyros(&state, &mut account);
+        self.add_wheels_and_cmgs(&state, &mut account);
         account
     }
-    /// Each wheel from its speed and the base's, each gyro from its gimbal.
-    fn add_wheels_and_gyros(&self, state: &State<f64, J>, account: &mut Account) {
+    /// Each wheel from its speed and the base's, each CMG from its gimbal.
+    fn add_wheels_and_cmgs(&self, state: &State<f64, J>, account: &mut Account) {
         let (w_NB_B, R_NB, s) = (state.V_NB_B.angular, state.X_NB.rotation, &self.system);
         let speed = self.wheels.speeds(&s.wheel_momentum, w_NB_B);
         for h_B in self.wheels.apart_B(self.wheels.momenta(&speed, w_NB_B)) {
             account.in_wheels += R_NB * h_B;
             account.angular_scale += h_B.norm();
         }
-        for h_B in self.gyros.apart_B(s.gimbal_angle, s.gimbal_rate) {
-            account.in_gyros += R_NB * h_B;
+        for h_B in self.cmgs.apart_B(s.gimbal_angle, s.gimbal_rate) {
+            account.in_cmgs += R_NB * h_B;
             account.angular_scale += h_B.norm();
         }
-        account.angular += account.in_wheels + account.in_gyros;
+        account.angular += account.in_wheels + account.in_cmgs;
     }
     /// Open the books.
     pub fn open_ledger(&self) -> Ledger {

@@ -1,18 +1,18 @@
 //! Simulated truth: motion of the bodies, drives and actuators as they behave, the ledger.
 //!
 //! The state is attitude, joints, centre of mass and total momentum in inertial axes; the base's
-//! twist follows from them, less what wheels and gyros hold. So only an outside wrench, a thruster or
+//! twist follows from them, less what wheels and CMGs hold. So only an outside wrench, a thruster or
 //! the ideal actuator can change momentum, at any step size. The ledger never reads that state: it sums the bodies one by one.
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
 mod advance;
+mod cmgs;
 mod command;
 mod failure;
 mod flow;
 mod free_body;
 mod free_flight;
 mod grasp;
-mod gyros;
 mod ledger;
 mod noise;
 mod propellant;

@@ -8,7 +8,7 @@ use wrasse_dynamics::{
     BodyId, Configuration, Dynamics, ForwardDynamics, Kinematics, Outside, PerBody, State,
     accelerate, configure, kinematics,
 };
-use wrasse_hardware::{GYROS, WHEELS};
+use wrasse_hardware::{CMGS, WHEELS};
 use wrasse_spatial::{SpatialForce, Vec3};
 
 impl<const J: usize> World<J> {
@@ -54,10 +54,10 @@ impl<const J: usize> World<J> {
         found
     }
 
-    /// What wheels and gyros hold beside the bodies, base axes (N·m·s).
+    /// What wheels and CMGs hold beside the bodies, base axes (N·m·s).
     pub(crate) fn inside_B(&self, system: &SystemState<J>) -> Vec3<f64> {
         self.wheels.together_B(&system.wheel_momentum)
-            + self.gyros.together_B(system.gimbal_angle, system.gimbal_rate)
+            + self.cmgs.together_B(system.gimbal_angle, system.gimbal_rate)
     }
 
     /// What acts at a state, `t` (s) into the current set-points.
@@ -82,15 +82,15 @@ impl<const J: usize> World<J> {
         let (w, angle, rate) = (state.V_NB_B.angular, system.gimbal_angle, system.gimbal_rate);
         // On a base that is held nothing turns against it; what they hold stays, for w is zero.
         let (wheel_torque, gimbal_acceleration) = match self.base {
-            BaseAttitude::Held => ([0.0; WHEELS], [0.0; GYROS]),
+            BaseAttitude::Held => ([0.0; WHEELS], [0.0; CMGS]),
             BaseAttitude::Controlled | BaseAttitude::Free => (
                 self.wheels.torques(&system.wheel_momentum, w),
-                self.gyros.accelerations(&angle, &rate, w),
+                self.cmgs.accelerations(&angle, &rate, w),
             ),
         };
         // What they hold, h, turns with the base: the bodies feel -ḣ - w × h.
         let hdot_B = self.wheels.together_B(&wheel_torque)
-            + self.gyros.change_B(angle, rate, &gimbal_acceleration);
+            + self.cmgs.change_B(angle, rate, &gimbal_acceleration);
         Acting {
             outside,
             thrust_B: self.thrusters.wrench(t, within),
@@ -187,12 +187,12 @@ pub(crate) struct Acting<const J: usize> {
     outside: Option<PerBody<SpatialForce<f64>, J>>,
     /// The thrusters on the base, at its origin, in base axes.
     thrust_B: SpatialForce<f64>,
-    /// Torque of wheels and gyros on the base, base axes (N·m).
+    /// Torque of wheels and CMGs on the base, base axes (N·m).
     pub(crate) turning_B: Vec3<f64>,
     /// On each wheel about its axis (N·m).
     wheel_torque: [f64; WHEELS],
     /// Of each gimbal (rad/s²).
-    pub(crate) gimbal_acceleration: [f64; GYROS],
+    pub(crate) gimbal_acceleration: [f64; CMGS],
 }
 
 impl<const J: usize> Acting<J> {

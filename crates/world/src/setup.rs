@@ -2,7 +2,7 @@
 
 use crate::stepper::Stepper;
 use wrasse_dynamics::{Frame, Kinematics, MassProperties, PerBody, Robot, State};
-use wrasse_hardware::{Actuators, AttitudeActuator, GYROS, JointLimits, SetPointMotion, WHEELS};
+use wrasse_hardware::{Actuators, AttitudeActuator, CMGS, JointLimits, SetPointMotion, WHEELS};
 use wrasse_spatial::SpatialForce;
 
 /// What becomes of the base's attitude.
@@ -41,7 +41,7 @@ pub struct Instant {
 pub type OutsideWrench<const J: usize> =
     Box<dyn Fn(Instant, &Kinematics<'_, f64, J>) -> PerBody<SpatialForce<f64>, J> + Send + Sync>;
 
-/// The wheels, gyros and thrusters of the base, and how they stand at the start.
+/// The wheels, CMGs and thrusters of the base, and how they stand at the start.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Equipment {
     /// What they are.
@@ -49,7 +49,7 @@ pub struct Equipment {
     /// Speed of each wheel against the base (rad/s).
     pub wheel_speed: [f64; WHEELS],
     /// Angle of each gimbal (rad); its rate is zero.
-    pub gimbal_angle: [f64; GYROS],
+    pub gimbal_angle: [f64; CMGS],
     /// Seed of the thrusters' noise.
     pub seed: u64,
 }
@@ -63,7 +63,7 @@ pub struct WorldSetup<'a, const J: usize> {
     pub limits: &'a [JointLimits<f64>],
     /// The ideal attitude actuator, if it has one.
     pub actuator: Option<AttitudeActuator<f64>>,
-    /// Wheels, gyros, thrusters. Where the attitude is held they are matter that does nothing: wheels
+    /// Wheels, CMGs, thrusters. Where the attitude is held they are matter that does nothing: wheels
     /// keep their speeds, gimbals their angles, and thrusters stay shut.
     pub equipment: Equipment,
     /// What becomes of the base's attitude.

@@ -1,8 +1,8 @@
 //! The world: a vehicle in free space, what drives it, and its motion through time.
 
+use crate::cmgs::Cmgs;
 use crate::flow::Flow;
 use crate::free_body::FreeBody;
-use crate::gyros::Gyros;
 use crate::propellant::{Carried, InTank};
 use crate::rates::Places;
 use crate::setup::{BaseAttitude, Drive, Equipment, Instant, OutsideWrench, WorldSetup};
@@ -15,7 +15,7 @@ use wrasse_dynamics::{
     BodyId, Dynamics, Frame, Kinematics, MassProperties, PerBody, Robot, State, kinematics,
     momentum,
 };
-use wrasse_hardware::{ActuatorReadings, AttitudeActuator, GYROS, JointLimits, WHEELS};
+use wrasse_hardware::{ActuatorReadings, AttitudeActuator, CMGS, JointLimits, WHEELS};
 use wrasse_spatial::{Pose, Quat, Real, SpatialForce, Vec3};
 
 /// The integrated state: all of it in inertial axes but the joints.
@@ -31,15 +31,15 @@ pub struct SystemState<const J: usize, T = f64> {
     pub p_NScm_N: Vec3<T>,
     /// Linear momentum (N·s).
     pub linear: Vec3<T>,
-    /// Angular momentum of bodies, wheels and gyros about the centre of mass (N·m·s); follows from
+    /// Angular momentum of bodies, wheels and CMGs about the centre of mass (N·m·s); follows from
     /// the rest where the attitude is held.
     pub angular: Vec3<T>,
     /// Momentum of each wheel about its own axis, as seen from inertial space (N·m·s).
     pub wheel_momentum: [T; WHEELS],
     /// Angle of each gimbal (rad).
-    pub gimbal_angle: [T; GYROS],
+    pub gimbal_angle: [T; CMGS],
     /// Rate of each gimbal (rad/s).
-    pub gimbal_rate: [T; GYROS],
+    pub gimbal_rate: [T; CMGS],
 }
 
 impl<const J: usize> SystemState<J> {
@@ -54,8 +54,8 @@ impl<const J: usize> SystemState<J> {
             linear: o,
             angular: o,
             wheel_momentum: [0.0; WHEELS],
-            gimbal_angle: [0.0; GYROS],
-            gimbal_rate: [0.0; GYROS],
+            gimbal_angle: [0.0; CMGS],
+            gimbal_rate: [0.0; CMGS],
         }
     }
 }
@@ -103,7 +103,7 @@ pub struct World<const J: usize> {
     /// Times at which it jumps or bends (s).
     pub(crate) outside_bends: Vec<f64>,
     pub(crate) wheels: Wheels,
-    pub(crate) gyros: Gyros,
+    pub(crate) cmgs: Cmgs,
     pub(crate) thrusters: Thrusters,
     /// What feeds the thrusters; without a tank they never run dry.
     pub(crate) tank: Option<InTank>,
@@ -167,7 +167,7 @@ impl<const J: usize> World<J> {
             outside: None,
             outside_bends: Vec::new(),
             wheels,
-            gyros: Gyros::new(&equipment.actuators.gyros),
+            cmgs: Cmgs::new(&equipment.actuators.cmgs),
             thrusters: Thrusters::new(&equipment.actuators.thrusters, equipment.seed),
             tank,
             carried: Carried::default(),
@@ -239,7 +239,7 @@ impl<const J: usize> World<J> {
     pub fn actuator_torque_B(&self) -> Vec3<f64> {
         self.actuator_torque_B
     }
-    /// What wheels, gyros and tank say of themselves.
+    /// What wheels, CMGs and tank say of themselves.
     pub fn actuator_readings(&self) -> ActuatorReadings<f64> {
         let w_NB_B = self.state().V_NB_B.angular;
         ActuatorReadings {
@@ -250,21 +250,21 @@ impl<const J: usize> World<J> {
         }
     }
     /// Torque of each gimbal's motor now (N·m), what it bears of the turning base included.
-    pub fn gimbal_motor_torque(&self) -> [f64; GYROS] {
+    pub fn gimbal_motor_torque(&self) -> [f64; CMGS] {
         let (t, s) = (self.into_period, &self.system);
         let state = self.state();
         let k = kinematics(&self.robot, &state);
         let acting = self.acting_at(s, &k, t);
         let wdot_NB_B = self.dynamics_at(&k, t, &acting).nudot.base.angular;
         let (acceleration, w_NB_B) = (acting.gimbal_acceleration, state.V_NB_B.angular);
-        self.gyros.motor_torques(&s.gimbal_angle, &acceleration, w_NB_B, wdot_NB_B)
+        self.cmgs.motor_torques(&s.gimbal_angle, &acceleration, w_NB_B, wdot_NB_B)
     }
     /// Torque that each gimbal's motor would have needed to do as it was told as the period began (N·m),
     /// whatever it can give.
-    pub fn gimbal_motor_asked(&self) -> [f64; GYROS] {
-        self.gyros.motor_asked()
+    pub fn gimbal_motor_asked(&self) -> [f64; CMGS] {
+        self.cmgs.motor_asked()
     }
-    /// Torque of wheels and gyros on the base now (N·m, base axes).
+    /// Torque of wheels and CMGs on the base now (N·m, base axes).
     pub fn turning_torque_B(&self) -> Vec3<f64> {
         let (t, s) = (self.into_period, &self.system);
         let state = self.state();

@@ -1,4 +1,4 @@
-//! The ledger with wheels, gyros, thrusters, a tank that empties and a body that floats beside: what
+//! The ledger with wheels, CMGs, thrusters, a tank that empties and a body that floats beside: what
 //! they give and take is in the books.
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
@@ -83,11 +83,11 @@ fn with_every_actuator_the_books_close() {
     // Each has done something, and what is left in the tank is what did not leave.
     let (start, now) = (ledger.start, ledger.now);
     assert!((now.in_wheels - start.in_wheels).norm() > 1.0);
-    assert!((now.in_gyros - start.in_gyros).norm() > 1.0);
+    assert!((now.in_cmgs - start.in_cmgs).norm() > 1.0);
     assert!(ledger.angular_from_thrusters.norm() > 1.0 && ledger.propellant.mass > 0.01);
     let left = world.actuator_readings().propellant;
     assert!((left + ledger.propellant.mass - 8.0).abs() < 1e-13, "{left}");
-    assert!(ledger.work.y.abs() > 0.1, "wheels and gyros must work on the bodies");
+    assert!(ledger.work.y.abs() > 0.1, "wheels and CMGs must work on the bodies");
 }
 
 /// Measured rests: 2.2e-14 N·m·s, 1.3e-14 N·s, 8e-12 J.
@@ -98,11 +98,11 @@ fn with_error_control_they_close_too() {
     assert!(angular < 1e-12 && linear < 1e-13 && energy < 1e-10, "{angular:e} {energy:e}");
 }
 
-/// Wheels and gyros only hand momentum about: the sum stays at any step, be it too long for the motion.
+/// Wheels and CMGs only hand momentum about: the sum stays at any step, be it too long for the motion.
 /// Measured rests, of 50 N·m·s and 18 N·s: 1.7e-14 and 0.9e-14 in steps of 50 ms, 2.4e-14 and 1e-14 in
 /// 10 ms, 1.3e-13 and 1.1e-14 in 1 ms (the path of the free body is a plain sum).
 #[test]
-fn wheels_and_gyros_keep_momentum_to_rounding_at_any_step() {
+fn wheels_and_cmgs_keep_momentum_to_rounding_at_any_step() {
     for step in [0.05, 0.01, 1e-3] {
         let mut equipment = everything(1);
         equipment.actuators.thrusters = List::empty();
@@ -158,8 +158,8 @@ fn failures_grasps_and_releases_leave_the_books_closed() {
 #[test]
 fn a_jam_shakes_joints_as_an_impulse_on_the_base_does() {
     let mut equipment = everything(1);
-    for gyro in equipment.actuators.gyros.iter_mut() {
-        gyro.gimbal_inertia = 0.4;
+    for cmg in equipment.actuators.cmgs.iter_mut() {
+        cmg.gimbal_inertia = 0.4;
     }
     let mut world = world(&equipment, FINE);
     let mut ledger = world.open_ledger();
@@ -204,7 +204,7 @@ fn held(equipment: &Equipment) -> (World<J>, Ledger) {
 /// the books and passes to nobody, for a base that does not turn carries no momentum on: ω × h = 0.
 /// Measured rests: see below.
 #[test]
-fn a_held_base_keeps_the_mass_of_its_tank_and_what_its_wheels_and_gyros_hold() {
+fn a_held_base_keeps_the_mass_of_its_tank_and_what_its_wheels_and_cmgs_hold() {
     let equipment = everything(1);
     let ((world, ledger), (bare, _)) = (held(&equipment), held(&Equipment::default()));
     let tank = equipment.actuators.tank.expect("there is one").propellant;
@@ -212,13 +212,13 @@ fn a_held_base_keeps_the_mass_of_its_tank_and_what_its_wheels_and_gyros_hold() {
     let readings = world.actuator_readings();
     assert_eq!(readings.propellant, tank);
     assert_eq!(readings.gimbal_angle, equipment.gimbal_angle);
-    assert_eq!(readings.gimbal_rate, [0.0; wrasse_hardware::GYROS]);
+    assert_eq!(readings.gimbal_rate, [0.0; wrasse_hardware::CMGS]);
     for (now, start) in readings.wheel_speed.iter().zip(equipment.wheel_speed) {
         assert!((now - start).abs() <= 1e-12 * start.abs(), "{now} {start}");
     }
     let (start, now) = (&ledger.start, &ledger.now);
-    assert!(start.in_wheels.norm() > 0.01 && start.in_gyros.norm() > 0.1, "{start:?}");
-    assert_eq!((start.in_wheels, start.in_gyros), (now.in_wheels, now.in_gyros));
+    assert!(start.in_wheels.norm() > 0.01 && start.in_cmgs.norm() > 0.1, "{start:?}");
+    assert_eq!((start.in_wheels, start.in_cmgs), (now.in_wheels, now.in_cmgs));
     assert_eq!(ledger.propellant.mass, 0.0);
     let [angular, linear, energy] = ledger.rests();
     assert!(angular < 1e-9 && linear < 1e-12 && energy < 1e-9, "{angular:e} {linear:e} {energy:e}");

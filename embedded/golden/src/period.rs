@@ -6,8 +6,8 @@ use core::array;
 use wrasse_dynamics::{Frame, Robot, State, kinematics};
 use wrasse_flight::trajectory::ToolMotion;
 use wrasse_flight::{
-    ArmLaw, Asked, Assignment, Axes, BaseControlSetup, Feedforward, JointUse, Measurement,
-    NavigationSetup, PeriodMemory, Setup, Task, Told, Tuning, control_period,
+    ArmLaw, ArmReference, Assignment, Axes, BaseControlSetup, ControlOutput, Feedforward, JointUse,
+    Measurement, NavigationSetup, PeriodMemory, Setup, Task, Tuning, control_period,
 };
 use wrasse_flight_c::{WrasseBody, WrasseFrame, WrasseLink, frame_from_table, robot_from_tables};
 use wrasse_hardware::JointLimits;
@@ -34,7 +34,7 @@ pub struct Start<T, const J: usize> {
     /// What the sensors say.
     pub state: State<T, J>,
     memory: PeriodMemory<T, J>,
-    asked: Asked<T, J>,
+    asked: ArmReference<T, J>,
 }
 
 /// One arm of seven joints; nothing if its table is no robot, or has not the room.
@@ -132,7 +132,7 @@ impl<T: Real, const J: usize> Subject<T, J> {
             v: array::from_fn(|_| T::from_f64(random.within(0.05))),
         };
         let mut memory = PeriodMemory::new();
-        control_period(&self.robot, &self.setup, &mut memory, &state, &Asked::Still, None);
+        control_period(&self.robot, &self.setup, &mut memory, &state, &ArmReference::Still, None);
         let mut X_NE = kinematics(&self.robot, &state).pose(&self.setup.assignment.tool);
         X_NE.translation += vector(&mut random, 0.01);
         let (V_NE_N, Vdot_NE_N) = (twist(&mut random, 0.1), twist(&mut random, 0.1));
@@ -141,20 +141,20 @@ impl<T: Real, const J: usize> Subject<T, J> {
         Start {
             state,
             memory,
-            asked: Asked::Tool { reference, axes: Axes::Inertial, gain, gain_rate },
+            asked: ArmReference::Tool { reference, axes: Axes::Inertial, gain, gain_rate },
         }
     }
 
     /// One control period: what the tool is asked for, from what is sensed to the torques.
     #[inline(never)]
-    pub fn period(&self, start: &mut Start<T, J>) -> Told<T, J> {
+    pub fn period(&self, start: &mut Start<T, J>) -> ControlOutput<T, J> {
         let Start { state, memory, asked } = start;
         control_period(&self.robot, &self.setup, memory, state, asked, None)
     }
 }
 
 /// Each number that a period tells.
-pub fn numbers<T: Real, const J: usize>(told: &Told<T, J>) -> impl Iterator<Item = T> {
+pub fn numbers<T: Real, const J: usize>(told: &ControlOutput<T, J>) -> impl Iterator<Item = T> {
     let points = told.set_points.map(|p| [p.position, p.rate, p.acceleration]);
     let base = told.attitude_torque_B.to_array();
     points.into_iter().flatten().chain(told.effort).chain(base)

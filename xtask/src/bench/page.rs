@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 /// What is asked of a quantity: how many times faster than the peer.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Asked {
+pub(super) struct Workload {
     /// Name in the results, and for people.
     key: &'static str,
     name: &'static str,
@@ -20,12 +20,12 @@ const fn asked(
     name: &'static str,
     single: [Option<f64>; 2],
     batch: Option<f64>,
-) -> Asked {
-    Asked { key, name, single, batch }
+) -> Workload {
+    Workload { key, name, single, batch }
 }
 
 /// Quantities in the order of the page.
-const ASKED: [Asked; 8] = [
+const WORKLOADS: [Workload; 8] = [
     asked("inverse_dynamics", "inverse dynamics", [Some(5.5), Some(5.0)], Some(8.5)),
     asked("mass_matrix", "mass matrix", [Some(3.5), Some(3.0)], Some(5.0)),
     asked("forward_dynamics", "forward dynamics", [Some(4.3), Some(3.8)], Some(6.8)),
@@ -81,7 +81,7 @@ pub(super) struct Row {
 pub(super) fn rows(measured: &Measured) -> Vec<Row> {
     let mut rows = vec![];
     for (vehicle, vehicle_name) in VEHICLES {
-        for Asked { key, name, single: asked, batch } in ASKED {
+        for Workload { key, name, single: asked, batch } in WORKLOADS {
             let at = (vehicle.to_owned(), key.to_owned());
             let Some(ways) = measured.timings.get(&at) else { continue };
             let widest = WAYS[..3].iter().rev().find_map(|way| ways.get(*way).copied());

@@ -25,9 +25,9 @@ fn phases_follow_each_other_and_then_all_is_done() {
     let phases = [
         aside(Axes::Inertial, 1.0),
         hold(Held::Tool, 0.3),
-        Phase::Grip { told: Grip::Grasp(3), keep: Held::Joints },
+        Phase::Grip { action: Grip::Grasp(3), keep: Held::Joints },
         hold(Held::Joints, 0.101),
-        Phase::Grip { told: Grip::Release(3), keep: Held::Joints },
+        Phase::Grip { action: Grip::Release(3), keep: Held::Joints },
         hold(Held::Nothing, 0.05),
     ];
     let mut flight =
@@ -205,7 +205,7 @@ fn while_it_coasts_nothing_acts() {
 fn taking_hold_of_a_payload_continues_the_believed_motion() {
     let phases = [
         hold(Held::Joints, 0.1),
-        Phase::Grip { told: Grip::Grasp(0), keep: Held::Joints },
+        Phase::Grip { action: Grip::Grasp(0), keep: Held::Joints },
         hold(Held::Joints, 0.1),
     ];
     let mut flight =

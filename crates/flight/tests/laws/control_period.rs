@@ -4,15 +4,15 @@ use crate::spanning_states::{Period, STATES, servicer, setup, states};
 use crate::worst::Worst;
 use wrasse_dynamics::Robot;
 use wrasse_flight::{
-    ArmLaw, Asked, FlightComputer, Held, Measurement, PeriodMemory, Phase, Sensed, Told,
-    control_period,
+    ArmLaw, ArmReference, ControlOutput, FlightComputer, Held, Measurement, PeriodMemory, Phase,
+    Sensed, control_period,
 };
 use wrasse_hardware::ActuatorReadings;
 
 const LAWS: [ArmLaw; 3] = [ArmLaw::Terrestrial, ArmLaw::AttitudeHeld, ArmLaw::FreeFloating];
 
 /// All numbers that the actuators are told.
-fn numbers<const J: usize>(told: &Told<f64, J>) -> Vec<f64> {
+fn numbers<const J: usize>(told: &ControlOutput<f64, J>) -> Vec<f64> {
     let set_points = told.set_points.iter().flat_map(|s| [s.position, s.rate, s.acceleration]);
     let base = told.attitude_torque_B.to_array();
     set_points.chain(told.effort).chain(base).collect()
@@ -36,7 +36,7 @@ fn every_state_is_bounded<const J: usize>() {
 }
 
 /// Anywhere in the travel, at its ends, in singular postures and next to them: rates within 0.2 rad/s,
-/// torques within 500 N·m, and no number that is none.
+/// torques within 500 N·m, and no NaN.
 #[test]
 fn every_state_of_one_arm_and_of_two_gives_bounded_commands() {
     assert_eq!(states::<7>().len(), STATES);
@@ -79,7 +79,8 @@ fn the_computer_flies_the_control_period() {
             for (k, moving) in states().into_iter().take(15).enumerate() {
                 // Joints that move as a phase begins would be brought to rest first.
                 let state = wrasse_dynamics::State { v: [0.0; 7], ..moving };
-                let asked = if (5..10).contains(&k) { Asked::Coast } else { Asked::Still };
+                let asked =
+                    if (5..10).contains(&k) { ArmReference::Coast } else { ArmReference::Still };
                 let sensed = Sensed::perfect(&state, ActuatorReadings::default());
                 let command = computer.step(&sensed).unwrap();
                 let told = control_period(&robot, &setup, &mut memory, &state, &asked, None);

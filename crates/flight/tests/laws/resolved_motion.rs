@@ -6,8 +6,8 @@ use crate::worst::Worst;
 use std::array;
 use wrasse_dynamics::{BodyId, Cholesky, Frame, State, kinematics, momentum};
 use wrasse_flight::{
-    ArmLaw, Axes, Belief, JointUse, Resolved, ResolvedMotion, Task, WantedMotion, answered_motion,
-    joint_rates, resolved_motion, task_jacobian,
+    ArmLaw, Axes, Belief, JointUse, Resolved, ResolvedMotion, Task, WantedMotion,
+    believed_base_response, joint_rates, resolved_motion, task_jacobian,
 };
 use wrasse_spatial::{Pose, Quat, SpatialMomentum, SpatialVelocity, Vec3};
 
@@ -177,7 +177,7 @@ fn the_believed_answer_to_given_joint_motion_keeps_the_promise_and_is_differenti
         let (qdot, qddot): ([f64; J], [f64; J]) = (some(), some());
         let robot = &case.arm.robot;
         let answer = |belief: &Belief<f64, J>, qdot: &[f64; J]| {
-            answered_motion(robot, case.to.law, belief, qdot, &qddot)
+            believed_base_response(robot, case.to.law, belief, qdot, &qddot)
         };
         let motion = answer(&case.belief, &qdot);
         assert_eq!((motion.rate.qdot, motion.qddot), (qdot, qddot));

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, MassProperties, Robot, State, kinematics};
 use wrasse_flight::trajectory::ToolMotion;
 use wrasse_flight::{
-    ArmLaw, Asked, Assignment, Axes, BaseControlSetup, Feedforward, JointUse, Measurement,
-    NavigationSetup, PeriodMemory, Setup, Task, Told, Tuning, control_period,
+    ArmLaw, ArmReference, Assignment, Axes, BaseControlSetup, ControlOutput, Feedforward, JointUse,
+    Measurement, NavigationSetup, PeriodMemory, Setup, Task, Tuning, control_period,
 };
 use wrasse_hardware::JointLimits;
 use wrasse_spatial::{Mat3, Pose, Quat, Real, SpatialMomentum, SpatialVelocity, Sym3, Vec3, vec3};
@@ -135,7 +135,7 @@ fn state<const J: usize>(k: usize, spread: &mut Spread) -> State<f64, J> {
 pub(crate) struct Period<const J: usize> {
     memory: PeriodMemory<f64, J>,
     state: State<f64, J>,
-    asked: Asked<f64, J>,
+    asked: ArmReference<f64, J>,
 }
 
 impl<const J: usize> Period<J> {
@@ -147,13 +147,14 @@ impl<const J: usize> Period<J> {
         k: usize,
     ) -> Self {
         let mut memory = PeriodMemory::new();
-        control_period(robot, setup, &mut memory, &state, &Asked::Still, None);
+        control_period(robot, setup, &mut memory, &state, &ArmReference::Still, None);
         let mut spread = Spread(k as u64);
         let mut X_NE = kinematics(robot, &state).pose(&setup.assignment.tool);
         X_NE.translation += spread.vector(0.01);
         let reference =
             ToolMotion { X_NE, V_NE_N: spread.twist(0.1), Vdot_NE_N: spread.twist(0.1) };
-        let asked = Asked::Tool { reference, axes: Axes::Inertial, gain: 0.1, gain_rate: 0.2 };
+        let asked =
+            ArmReference::Tool { reference, axes: Axes::Inertial, gain: 0.1, gain_rate: 0.2 };
         Self { memory, state, asked }
     }
     /// The vehicle as it is believed to move after the period.
@@ -169,8 +170,8 @@ impl<const J: usize> Period<J> {
         &self,
         robot: &Robot<f64, J>,
         setup: &Setup<f64, J>,
-    ) -> Told<T, J> {
-        let Asked::Tool { reference, axes, gain, gain_rate } = self.asked else {
+    ) -> ControlOutput<T, J> {
+        let ArmReference::Tool { reference, axes, gain, gain_rate } = self.asked else {
             panic!("the tool is asked for")
         };
         let (robot, setup, c) = (robot.cast(), setup.bare(), T::from_f64);
@@ -186,13 +187,17 @@ impl<const J: usize> Period<J> {
             V_NE_N: twist(reference.V_NE_N),
             Vdot_NE_N: twist(reference.Vdot_NE_N),
         };
-        let asked = Asked::Tool { reference, axes, gain: c(gain), gain_rate: c(gain_rate) };
+        let asked = ArmReference::Tool { reference, axes, gain: c(gain), gain_rate: c(gain_rate) };
         let mut memory = PeriodMemory::new();
-        control_period(&robot, &setup, &mut memory, &state, &Asked::Still, None);
+        control_period(&robot, &setup, &mut memory, &state, &ArmReference::Still, None);
         control_period(&robot, &setup, &mut memory, &state, &asked, None)
     }
     /// Flies it.
-    pub(crate) fn fly(&mut self, robot: &Robot<f64, J>, setup: &Setup<f64, J>) -> Told<f64, J> {
+    pub(crate) fn fly(
+        &mut self,
+        robot: &Robot<f64, J>,
+        setup: &Setup<f64, J>,
+    ) -> ControlOutput<f64, J> {
         control_period(robot, setup, &mut self.memory, &self.state, &self.asked, None)
     }
 }

@@ -29,12 +29,12 @@ fn of_the_joints(
     momentum(&kinematics(robot, &state)).angular
 }
 
-/// A second route, from speeds and angles in the telemetry alone: what wheels and gyros take up is what
+/// A second route, from speeds and angles in the telemetry alone: what wheels and CMGs take up is what
 /// the arm has, with the opposite sign. Measured: off by at most 1.8e-6 of the largest with wheels, 2.6e-4
-/// with gyros, whose base turns a little.
+/// with CMGs, whose base turns a little.
 #[test]
-fn momentum_of_the_arm_and_momentum_of_wheels_or_gyros_add_up_to_nothing() {
-    for (name, laden, bound) in [("wheels", false, 2e-5), ("gyros", true, 1e-3)] {
+fn momentum_of_the_arm_and_momentum_of_wheels_or_cmgs_add_up_to_nothing() {
+    for (name, laden, bound) in [("wheels", false, 2e-5), ("cmgs", true, 1e-3)] {
         let (flown, mission) = (case(name, ""), read(&text_of(name)));
         let (vehicle, equipment) = (mission.vehicle(0), mission.equipment(0));
         let tool = vehicle.frame("tool").expect("it has a tool");
@@ -46,11 +46,11 @@ fn momentum_of_the_arm_and_momentum_of_wheels_or_gyros_add_up_to_nothing() {
             for (i, unit) in equipment.wheel_names.iter().enumerate() {
                 speeds[i] = read(&format!("wheel.{unit}"), "speed") * std::f64::consts::PI / 30.0;
             }
-            for (i, unit) in equipment.gyro_names.iter().enumerate() {
-                angles[i] = read(&format!("gyro.{unit}"), "angle").to_radians();
+            for (i, unit) in equipment.cmg_names.iter().enumerate() {
+                angles[i] = read(&format!("cmg.{unit}"), "angle").to_radians();
             }
             let actuators = &equipment.actuators;
-            actuators.wheel_momentum(&speeds) + actuators.gyro_momentum(&angles)
+            actuators.wheel_momentum(&speeds) + actuators.cmg_momentum(&angles)
         };
         let (mut largest, mut worst) = (0.0_f64, 0.0_f64);
         for at in 0..flown.telemetry.time.len() {
@@ -63,13 +63,13 @@ fn momentum_of_the_arm_and_momentum_of_wheels_or_gyros_add_up_to_nothing() {
     }
 }
 
-/// The ledger names the momentum in wheels and gyros apart and counts it in the sum. Measured: the sum ends
+/// The ledger names the momentum in wheels and CMGs apart and counts it in the sum. Measured: the sum ends
 /// at 1.8e-15 N·m·s.
 #[test]
-fn momentum_in_wheels_and_gyros_stands_in_the_ledger_and_the_sum_stays() {
-    for name in ["wheels-saturate", "wheel-fails", "gyros"] {
+fn momentum_in_wheels_and_cmgs_stands_in_the_ledger_and_the_sum_stays() {
+    for name in ["wheels-saturate", "wheel-fails", "cmgs"] {
         let l = &case(name, "").ledger;
-        let inside = [l.angular_in_wheels[1], l.angular_in_gyros[1]];
+        let inside = [l.angular_in_wheels[1], l.angular_in_cmgs[1]];
         assert!(inside.iter().flatten().any(|h| h.abs() > 1e-9), "{name}: nothing inside");
         let sum = l.angular_end.iter().fold(0.0, |most: f64, h| most.max(h.abs()));
         println!("{name}: {sum:.1e} N·m·s");
@@ -176,7 +176,7 @@ fn the_same_seed_gives_the_same_bits_and_another_seed_other_bits() {
 }
 
 /// The flight computer is told of the propellant that is gone: 204 of 300 kg leave through a thruster that
-/// opens by itself and shuts 20 s later, then gyros hold the base while 200 kg are moved.
+/// opens by itself and shuts 20 s later, then CMGs hold the base while 200 kg are moved.
 /// Measured: the base turns by 2.8e-4 deg; by 6.1e-4 deg if the computer is not told.
 #[test]
 fn the_laws_know_what_is_left_of_the_vehicle_when_propellant_has_gone() {
@@ -187,7 +187,7 @@ fn the_laws_know_what_is_left_of_the_vehicle_when_propellant_has_gone() {
     state.q.iter_mut().zip(posture).for_each(|(to, from)| *to = *from);
     let laden = vehicle.robot.with_payload(&tool, &module());
     let p_cm = kinematics(&laden, &state).centre_of_mass().1.to_array();
-    let text = text_of("gyros")
+    let text = text_of("cmgs")
         .replace("joints = \"torque\"", "joints = \"prescribed\"")
         .replace(
             "move_tool = { by_m = [0.0, 0.3, 0.0], duration_s = 20.0 }",

@@ -41,13 +41,13 @@ fn the_guide_tells_what_the_missions_of_base_control_do() {
     let mut page = Page::open("book/src/guide/base_control.md");
     for shows in [
         "| four wheels of 0.2 N·m and the empty arm, 0.3 m in 30 s |",
-        "| four gyros of 15 N·m·s and 200 kg in the grip, 0.3 m in 20 s |",
+        "| four CMGs of 15 N·m·s and 200 kg in the grip, 0.3 m in 20 s |",
         "| the four wheels and 200 kg: it fails |",
         "| a wheel dies at 8 s, told 0.5 s later |",
         "| a gimbal sticks at 8 s, told or never told |",
         "| a couple of 1.5 N·m about x drives the pyramid to its internal singularity at 1.2 h0 |",
         "| thrusters hold attitude and position against 10 N |",
-        "| gyros and thrusters against 5 N for a minute |",
+        "| CMGs and thrusters against 5 N for a minute |",
         "| the tank runs dry under 10 N: it fails |",
         "| perfect sensors, a tracker of 3 arcsec, one of 60 arcsec |",
         "| 10 N that last, and a posture that gives way |",
@@ -56,13 +56,13 @@ fn the_guide_tells_what_the_missions_of_base_control_do() {
     }
     let wheels = case("wheels", "");
     page.says("| base turned by {} deg, tool off by {} nm |", &[turned(wheels), off(wheels, 1e9)]);
-    let gyros = case("gyros", "");
+    let cmgs = case("cmgs", "");
     let (stored, rates) =
-        (metric(gyros, "attitude.momentum.max"), metric(gyros, "gyros.rate_use.max") * 100.0);
+        (metric(cmgs, "attitude.momentum.max"), metric(cmgs, "cmgs.rate_use.max") * 100.0);
     page.says(
         "| base turned by {} deg, tool off by {} µm; {} N·m·s stored on the way, gimbals at {} % of \
          their rates |",
-        &[turned(gyros), off(gyros, 1e6), stored, rates],
+        &[turned(cmgs), off(cmgs, 1e6), stored, rates],
     );
     let full = case("wheels-saturate", "");
     let (limit, lost) =
@@ -77,13 +77,13 @@ fn the_guide_tells_what_the_missions_of_base_control_do() {
         "| base turned by {} deg; tool off by {} nm at the end |",
         &[turned(dead), at_the_end(dead, 1e9)],
     );
-    the_guide_tells_of_gyros_and_thrusters(&mut page);
+    the_guide_tells_of_cmgs_and_thrusters(&mut page);
     the_guide_tells_the_rest(&mut page);
-    page.leaves_nothing_open("All fly the ATLAS-class", "In `missions/base-control/singular-gyros");
+    page.leaves_nothing_open("All fly the ATLAS-class", "In `missions/base-control/singular-cmgs");
     page.holds();
 }
 
-fn the_guide_tells_of_gyros_and_thrusters(page: &mut Page) {
+fn the_guide_tells_of_cmgs_and_thrusters(page: &mut Page) {
     let stuck = ["is told after 0.2 s", "is never told"].map(|row| case("gimbal-stuck", row));
     page.says(
         "| told: base turned by {} deg, tool off by {} µm, {} µm at the end; never told: {} deg, {} µm, \
@@ -91,8 +91,8 @@ fn the_guide_tells_of_gyros_and_thrusters(page: &mut Page) {
         &stuck.map(|c| [turned(c), off(c, 1e6), at_the_end(c, 1e6)]).concat(),
     );
     let rows = ["pseudo-inverse", "singularity-robust", "generalized", "generalized, null motion"];
-    let [plain, robust @ ..] = rows.map(|row| turned(case("singular-gyros", row)));
-    let preferred = turned(case("singular-gyros", "pseudo-inverse, preferred angles"));
+    let [plain, robust @ ..] = rows.map(|row| turned(case("singular-cmgs", row)));
+    let preferred = turned(case("singular-cmgs", "pseudo-inverse, preferred angles"));
     page.says(
         "| base turned by {} deg with the pseudo-inverse, by {}, {} and {} deg with the robust laws, by \
          {} deg from preferred angles |",
@@ -117,7 +117,7 @@ fn the_guide_tells_the_rest(page: &mut Page) {
     let hybrid = case("hybrid", "");
     let emptied = hybrid.events.iter().filter(|e| e.text.contains("have emptied")).count();
     page.says(
-        "| the gyros are emptied {} times, at {} N·m·s; base turned by {} deg; {} g |",
+        "| the CMGs are emptied {} times, at {} N·m·s; base turned by {} deg; {} g |",
         &[
             f64::from(u32::try_from(emptied).expect("a few")),
             metric(hybrid, "attitude.momentum.max"),

@@ -40,10 +40,10 @@ fn the_missions_that_should_fail_fail_and_the_others_meet_their_requirements() {
             // Its tool, free to go where it likes, goes 0.2 m into the bus.
             "posture-relief relieves, tool free",
             "posture-relief cannot relieve, tool keeps its place",
-            "singular-gyros pseudo-inverse",
-            "singular-gyros singularity-robust",
-            "singular-gyros generalized",
-            "singular-gyros generalized, null motion",
+            "singular-cmgs pseudo-inverse",
+            "singular-cmgs singularity-robust",
+            "singular-cmgs generalized",
+            "singular-cmgs generalized, null motion",
             "tank-empty",
             "wheels-saturate",
         ]
@@ -56,7 +56,7 @@ fn where_the_actuators_are_enough_nothing_is_said_but_the_phases() {
         let events = case(name, "").events.iter().filter(|e| e.kind != EventKind::Phase);
         events.map(|e| e.text.as_str()).collect::<Vec<_>>()
     };
-    for name in ["wheels", "gyros"] {
+    for name in ["wheels", "cmgs"] {
         assert!(others(name).is_empty(), "{name}: {:?}", others(name));
     }
     // Thrusters have a dead band, and say so.
@@ -65,17 +65,17 @@ fn where_the_actuators_are_enough_nothing_is_said_but_the_phases() {
 }
 
 /// Measured: tool off by at most 3.4e-9 m and base by 2.9e-6 deg with wheels, 1.6e-6 m and 3.1e-4 deg
-/// with gyros.
+/// with CMGs.
 #[test]
-fn wheels_hold_the_base_of_the_empty_arm_and_gyros_that_of_a_laden_one() {
-    let (wheels, gyros) = (case("wheels", ""), case("gyros", ""));
+fn wheels_hold_the_base_of_the_empty_arm_and_cmgs_that_of_a_laden_one() {
+    let (wheels, cmgs) = (case("wheels", ""), case("cmgs", ""));
     about(metric(wheels, "tool.position_error.max"), 3.35e-9, 0.05);
     about(degrees(wheels, "base.rotation.max"), 2.92e-6, 0.05);
     about(metric(wheels, "wheels.speed_use.max"), 0.04999, 0.01);
-    about(metric(gyros, "tool.position_error.max"), 1.554e-6, 0.05);
-    about(degrees(gyros, "base.rotation.max"), 3.14e-4, 0.05);
-    about(metric(gyros, "gyros.rate_use.max"), 0.01494, 0.01);
-    about(metric(gyros, "attitude.momentum.max"), 12.18, 0.01);
+    about(metric(cmgs, "tool.position_error.max"), 1.554e-6, 0.05);
+    about(degrees(cmgs, "base.rotation.max"), 3.14e-4, 0.05);
+    about(metric(cmgs, "cmgs.rate_use.max"), 0.01494, 0.01);
+    about(metric(cmgs, "attitude.momentum.max"), 12.18, 0.01);
 }
 
 /// 290 N·s pull at the tool; the thrusters give them back, and a little more to turn. Measured: 0.1302 kg,
@@ -159,7 +159,7 @@ fn a_stuck_gimbal_stands_still_and_the_tool_lands_whether_the_computer_is_told_o
         ("is never told", 0.1022, 1.935e-4, 5.65e-6),
     ] {
         let flown = case("gimbal-stuck", row);
-        let (angle, time) = (channel(flown, "gyro.g-2.angle"), &flown.telemetry.time);
+        let (angle, time) = (channel(flown, "cmg.g-2.angle"), &flown.telemetry.time);
         let stuck = time.iter().position(|&t| t > 8.0).expect("it goes on");
         assert!(angle[stuck..].iter().all(|&x| x == angle[stuck]), "{row}: it moves");
         assert!((angle[stuck] - angle[0]).abs() > 1.0, "{row}: it had moved before");
@@ -193,13 +193,13 @@ fn a_tank_that_runs_dry_says_when_and_that_attitude_control_was_lost() {
     assert!(sum.contains(&format!("the base stood up to {:.0}", turned.floor())), "{sum}");
 }
 
-/// Measured: gyros fill to 15.07 N·m·s at most and are emptied five times, to just under 5.
+/// Measured: CMGs fill to 15.07 N·m·s at most and are emptied five times, to just under 5.
 #[test]
-fn thrusters_empty_the_gyros_as_often_as_they_are_full() {
+fn thrusters_empty_the_cmgs_as_often_as_they_are_full() {
     let flown = case("hybrid", "");
     let texts = flown.events.iter().filter(|e| e.text.starts_with("thrusters "));
     let stored = texts.map(|e| {
-        let (words, number) = e.text.split_once("gyros: ").expect("it says how much");
+        let (words, number) = e.text.split_once("CMGs: ").expect("it says how much");
         let number: f64 = number.split(' ').next().expect("a number").parse().expect("a number");
         (words.contains("begin"), number)
     });
@@ -213,7 +213,7 @@ fn thrusters_empty_the_gyros_as_often_as_they_are_full() {
     about(metric(flown, "attitude.momentum.max"), 15.07, 0.01);
     about(metric(flown, "thrusters.propellant_used.final"), 0.0385, 0.1);
     about(degrees(flown, "base.rotation.max"), 0.137, 0.2);
-    // What the couple brings in is far more than the gyros hold: the thrusters took it.
+    // What the couple brings in is far more than the CMGs hold: the thrusters took it.
     assert!(flown.ledger.angular_from_outside[2] > 80.0);
     assert!(metric(flown, "attitude.torque_missing.max") < 1e-6);
 }
@@ -229,16 +229,16 @@ fn only_preferred_angles_pass_the_internal_singularity_without_being_turned() {
         ("generalized", 3.567),
         ("generalized, null motion", 3.567),
     ] {
-        let flown = case("singular-gyros", row);
-        let (time, _) = said(flown, "the gyros are all but singular");
+        let flown = case("singular-cmgs", row);
+        let (time, _) = said(flown, "the CMGs are all but singular");
         assert!((13.2..13.45).contains(&time), "{row}: {time} s");
         said(flown, "the actuators cannot give the torque that is wanted");
-        assert!(metric(flown, "gyros.singularity_distance.min") < 1e-6);
+        assert!(metric(flown, "cmgs.singularity_distance.min") < 1e-6);
         about(degrees(flown, "base.rotation.max"), turned, 0.02);
     }
-    let flown = case("singular-gyros", "pseudo-inverse, preferred angles");
+    let flown = case("singular-cmgs", "pseudo-inverse, preferred angles");
     about(degrees(flown, "base.rotation.max"), 4.055e-4, 0.05);
-    about(metric(flown, "gyros.singularity_distance.min"), 0.524, 0.02);
+    about(metric(flown, "cmgs.singularity_distance.min"), 0.524, 0.02);
     assert!(flown.events.iter().all(|e| e.kind == EventKind::Phase), "{:?}", flown.events);
     // 2.55 h0 are stored at the end.
     about(metric(flown, "attitude.momentum.final"), 38.25, 1e-3);
@@ -273,13 +273,13 @@ fn a_posture_that_gives_way_leaves_the_base_less_to_store_or_says_why_not() {
     about(stored("relieves, tool keeps its orientation"), 511.7, 0.02);
     let kept = case("posture-relief", "cannot relieve, tool keeps its place");
     about(stored("cannot relieve, tool keeps its place"), stored("stands still"), 1e-9);
-    let (time, text) = said(kept, "the posture cannot relieve the base");
+    let (time, text) = said(kept, "the posture cannot unload the base");
     assert!((4.0..4.1).contains(&time), "at once: {time} s");
     for words in ["the lever stays 1.512 m", "store 15.116 N·m·s every second", "load path"] {
         assert!(text.contains(words), "no `{words}` in {text}");
     }
     let turning = case("posture-relief", "relieves, tool keeps its orientation");
-    let (time, _) = said(turning, "the posture cannot relieve the base");
+    let (time, _) = said(turning, "the posture cannot unload the base");
     assert!((time - 9.68).abs() < 0.2, "{time} s");
 }
 

@@ -88,18 +88,18 @@ fn wheels() -> Pair {
     }
 }
 
-/// A pyramid of four gyros, and one that a quick load takes to its limits.
-fn gyros() -> Pair {
+/// A pyramid of four CMGs, and one that a quick load takes to its limits.
+fn cmgs() -> Pair {
     let mission = |mass, way: String| {
         let arm = ARM.replace("\"torque\"\n", "\"torque\"\nstep_s = 0.0025\n");
         format!(
-            "{HEAD}{arm}{}{LAWS}[actuators]\nname = \"4\"\ngyro_array = [{{ name = \"g\", model = \
+            "{HEAD}{arm}{}{LAWS}[actuators]\nname = \"4\"\ncmg_array = [{{ name = \"g\", model = \
              \"airbus-cmg-15-45s\", arrangement = \"pyramid\", skew_deg = 53.13 }}]\n{way}",
             load(mass)
         )
     };
     Pair {
-        name: "gyros",
+        name: "cmgs",
         good: mission(1.0, reach(0.003, 1.0)),
         bad: mission(200.0, reach(0.3, 2.5)),
     }
@@ -152,5 +152,5 @@ fn slider() -> Pair {
 
 /// All of them.
 pub(crate) fn pairs() -> Vec<Pair> {
-    vec![drives(), coast(), wheels(), gyros(), thrusters(), estimator(), slider()]
+    vec![drives(), coast(), wheels(), cmgs(), thrusters(), estimator(), slider()]
 }

@@ -1,7 +1,9 @@
 //! The report of a study: one page that opens without a network and needs no script.
 
 use maud::{Markup, html};
-use wrasse_study::{Answer, Bounds, Flown, SetCard, SetKind, SetVerdict, StudyOutcome, TaskOutcome};
+use wrasse_study::{
+    Answer, Bounds, Flown, SetCard, SetKind, SetVerdict, StudyOutcome, TaskOutcome,
+};
 
 use super::Head::{Plain, Unit, Verdict};
 use super::{
@@ -173,7 +175,7 @@ fn sets(sets: &[SetCard]) -> Markup {
     let sources: Vec<_> = sources.collect();
     html! {
         p.hint {
-            "Gyros: with steering by the pseudo-inverse from the gimbal angles at the start, and \
+            "CMGs: with steering by the pseudo-inverse from the gimbal angles at the start, and \
              in brackets with the best steering there can be. Thrusters: couples."
         }
         (table("sizes", &head, &body))
@@ -294,13 +296,12 @@ fn flight(flown: &Flown) -> Markup {
     }
 }
 
-/// The momentum envelopes of the gyros, with what the tasks ask on top; of the wheels if there are
-/// no gyros.
+/// The momentum envelopes of the CMGs, with what the tasks ask on top; of the wheels if there are
+/// no CMGs.
 fn envelopes(outcome: &StudyOutcome) -> Markup {
     let drawn =
         |kind| outcome.sets.iter().filter(move |set| set.kind == kind && !set.surfaces.is_empty());
-    let kind =
-        if drawn(SetKind::Gyros).next().is_some() { SetKind::Gyros } else { SetKind::Wheels };
+    let kind = if drawn(SetKind::Cmgs).next().is_some() { SetKind::Cmgs } else { SetKind::Wheels };
     let asked = largest_demands(outcome).into_iter();
     let paths: Vec<_> = asked
         .map(|task| MomentumPath { name: &task.name, points: &task.demand.momentum_B })

@@ -248,13 +248,13 @@ mod tests {
     fn pyramid() -> Vec<ControlMomentGyro<f64>> {
         let (s, c) = (0.8, 0.6);
         let sides = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
-        let gyro = |(x, y): (f64, f64)| ControlMomentGyro {
+        let cmg = |(x, y): (f64, f64)| ControlMomentGyro {
             gimbal_axis_B: vec3(s * x, s * y, c),
             spin_axis_B: vec3(-y, x, 0.0),
             momentum: 75.0,
             ..Default::default()
         };
-        sides.into_iter().map(gyro).collect()
+        sides.into_iter().map(cmg).collect()
     }
 
     #[test]
@@ -262,7 +262,7 @@ mod tests {
         let meshes = singular_surfaces(&pyramid(), 12);
         let points = [Vec3::zero(), vec3(90.0, 0.0, 0.0)];
         let path = MomentumPath { name: "a <task>", points: &points };
-        let figure = envelope_figure("Four gyros", &meshes, &[path]).unwrap().0;
+        let figure = envelope_figure("Four CMGs", &meshes, &[path]).unwrap().0;
         assert!(figure.contains("a &lt;task&gt;") && !figure.contains("NaN"));
         let views: Vec<_> = figure.split("<svg").skip(1).collect();
         let outer = |view: &str| view.split("class=\"outer").skip(1).map(faces).sum::<usize>();

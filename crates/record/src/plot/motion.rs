@@ -55,7 +55,7 @@ pub(crate) fn drawing(snapshots: &[Snapshot]) -> Option<Markup> {
                 "The vehicle at " (times.join(", ")) " s" (shades) ". "
                 span.key.path { "path of the tool" } " "
                 span.key.wanted { "where it should be" }
-                " Bounds views to one scale, in inertial axes."
+                " Both views to one scale, in inertial axes."
             }
         }
     })

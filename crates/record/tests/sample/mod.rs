@@ -14,7 +14,7 @@ pub(crate) fn single() -> Outcome {
     outcome("atlas-reach", vec![case(vec![], 0.0, 2401)])
 }
 
-/// Three laws with three loads; one way cannot be gone.
+/// Three laws with three loads; one path is infeasible.
 pub(crate) fn compared() -> Outcome {
     let mut cases = Vec::new();
     for (k, law) in ["terrestrial", "attitude-held", "free-floating"].iter().enumerate() {

@@ -1,10 +1,10 @@
-//! The four-gyro pyramid of the textbooks, for tests.
+//! The four-CMG pyramid of the textbooks, for tests.
 
 use super::solid::{Piece, Solid};
 use wrasse_hardware::ControlMomentGyro;
 use wrasse_spatial::vec3;
 
-/// Four gyros whose gimbal axes lean by the skew β from the pyramid's axis z: `cos β` and the momentum
+/// Four CMGs whose gimbal axes lean by the skew β from the pyramid's axis z: `cos β` and the momentum
 /// of a rotor (N·m·s).
 pub(crate) fn pyramid(c: f64, momentum: f64) -> [ControlMomentGyro<f64>; 4] {
     let s = (1.0 - c * c).sqrt();
@@ -17,9 +17,9 @@ pub(crate) fn pyramid(c: f64, momentum: f64) -> [ControlMomentGyro<f64>; 4] {
 }
 
 /// What they can hold together.
-pub(crate) fn momentum_of(gyros: &[ControlMomentGyro<f64>]) -> Solid {
+pub(crate) fn momentum_of(cmgs: &[ControlMomentGyro<f64>]) -> Solid {
     let pieces =
-        gyros.iter().map(|gyro| Piece::Disc { axis: gyro.gimbal_axis_B, radius: gyro.momentum });
+        cmgs.iter().map(|cmg| Piece::Disc { axis: cmg.gimbal_axis_B, radius: cmg.momentum });
     Solid { pieces: pieces.collect() }
 }
 
@@ -35,7 +35,7 @@ mod tests {
         let h = pyramid(0.6, 1.0)
             .iter()
             .zip(angles)
-            .fold(vec3(0.0, 0.0, 0.0), |h, (gyro, angle)| h + gyro.spin_axis(angle));
+            .fold(vec3(0.0, 0.0, 0.0), |h, (cmg, angle)| h + cmg.spin_axis(angle));
         let [(s1, c1), (s2, c2), (s3, c3), (s4, c4)] = angles.map(Real::sin_cos);
         let printed = vec3(
             -0.6 * s1 - c2 + 0.6 * s3 + c4,

@@ -1,14 +1,14 @@
 //! Convex solids that are sums of simple pieces: what several actuators can hold or give together.
 
 use super::directions::{across, least_over_directions};
-use wrasse_flight::steering::BoundedSimplex;
-use wrasse_hardware::{GYROS, WHEELS};
+use wrasse_flight::allocation::BoundedSimplex;
+use wrasse_hardware::{CMGS, WHEELS};
 use wrasse_spatial::Vec3;
 
 /// One summand of a solid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Piece {
-    /// From `-half` to `+half`: a wheel, or a gyro's torque at one gimbal angle.
+    /// From `-half` to `+half`: a wheel, or a CMG's torque at one gimbal angle.
     Segment {
         /// From the middle to one end.
         half: Vec3<f64>,
@@ -18,7 +18,7 @@ pub enum Piece {
         /// The other end.
         end: Vec3<f64>,
     },
-    /// A disc about zero: a gyro at any gimbal angle.
+    /// A disc about zero: a CMG at any gimbal angle.
     Disc {
         /// Unit normal: the gimbal axis (–).
         axis: Vec3<f64>,
@@ -32,7 +32,7 @@ pub enum Piece {
     },
 }
 
-/// All that can be reached as a sum of one point from each piece. For gyros, whose single momenta lie
+/// All that can be reached as a sum of one point from each piece. For CMGs, whose single momenta lie
 /// on the rims of the discs, it is the convex hull of what can be reached: it closes the windows about
 /// the gimbal axes.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -47,8 +47,8 @@ const SECTIONS: usize = 46;
 /// Where the search for a bracket ends: a solid so flat reaches a millionth of its size.
 const FARTHEST: f64 = 1e6;
 
-/// Most columns of a linear program: both ways of every wheel and every gyro.
-const COLUMNS: usize = 2 * (WHEELS + GYROS);
+/// Most columns of a linear program: both ways of every wheel and every CMG.
+const COLUMNS: usize = 2 * (WHEELS + CMGS);
 
 /// Its variables: the columns, the length along a direction, and the start, one for each axis.
 const VARIABLES: usize = COLUMNS + 1 + 3;

@@ -1,7 +1,7 @@
 //! What thrusters can do together: the largest torque along a direction, and the least propellant for
 //! a wrench.
 
-use wrasse_flight::steering::BoundedSimplex;
+use wrasse_flight::allocation::BoundedSimplex;
 use wrasse_hardware::{STANDARD_GRAVITY, THRUSTERS, Thruster};
 use wrasse_spatial::Vec3;
 

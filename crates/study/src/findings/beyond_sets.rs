@@ -15,7 +15,7 @@ impl Verdicts<'_> {
             .reduce(|a, b| if b.tool_error_mm > a.tool_error_mm { b } else { a })?;
         let text = format!(
             "In {} of {} tasks a force pushes the vehicle away with its attitude held: by {} mm in {} s \
-             at most. Wheels and gyros cannot react a force, thrusters and a grapple can.",
+             at most. Wheels and CMGs cannot react a force, thrusters and a grapple can.",
             tasks.len(),
             self.asked(),
             rounded(worst.tool_error_mm),

@@ -32,14 +32,14 @@ impl Verdicts<'_> {
         );
         self.has(SetKind::Wheels).then(|| finding("torque decides", text, &tasks))
     }
-    /// Gyros that the envelopes do not rule out, if they are steered past the inner singular surfaces.
+    /// CMGs that the envelopes do not rule out, if they are steered past the inner singular surfaces.
     pub(super) fn steering_decides(&self) -> Option<Finding> {
         let needs = |v: &SetVerdict| v.suffices == Answer::WithSteering;
-        let tasks = self.that(|t| self.of(t, SetKind::Gyros).any(needs));
+        let tasks = self.that(|t| self.of(t, SetKind::Cmgs).any(needs));
         let pairs: usize =
-            tasks.iter().map(|t| self.of(t, SetKind::Gyros).filter(|v| needs(v)).count()).sum();
+            tasks.iter().map(|t| self.of(t, SetKind::Cmgs).filter(|v| needs(v)).count()).sum();
         let text = format!(
-            "{pairs} times a set of gyros is not ruled out, but needs steering that starts from good \
+            "{pairs} times a set of CMGs is not ruled out, but needs steering that starts from good \
              gimbal angles, or avoids or escapes singularities: the demand is within the outer surface, \
              and beyond what the pseudo-inverse reaches. Whether a law gets there, a flight shows."
         );
@@ -61,7 +61,7 @@ impl Verdicts<'_> {
             tasks.len(),
             self.asked()
         );
-        for (kind, name) in [(SetKind::Wheels, "wheels"), (SetKind::Gyros, "gyros")] {
+        for (kind, name) in [(SetKind::Wheels, "wheels"), (SetKind::Cmgs, "cmgs")] {
             match lasting(kind) {
                 Some((low, high)) => {
                     text += &format!(
@@ -82,7 +82,7 @@ impl Verdicts<'_> {
     pub(super) fn tool_error_decides(&self) -> Option<Finding> {
         let flown = self.that(|t| t.verdicts.iter().any(|v| v.flown.is_some()));
         let told =
-            [SetKind::Wheels, SetKind::Gyros, SetKind::Thrusters, SetKind::Hybrid].map(|kind| {
+            [SetKind::Wheels, SetKind::Cmgs, SetKind::Thrusters, SetKind::Hybrid].map(|kind| {
                 let all: Vec<_> = flown
                     .iter()
                     .flat_map(|t| self.of(t, kind))
@@ -110,9 +110,9 @@ fn name(kind: SetKind) -> &'static str {
         SetKind::Ideal => "The reference",
         SetKind::Actuator => "The vehicle's ideal actuator",
         SetKind::Wheels => "Wheels",
-        SetKind::Gyros => "Gyros",
+        SetKind::Cmgs => "Cmgs",
         SetKind::Thrusters => "Thrusters",
-        SetKind::Hybrid => "Gyros or wheels with thrusters",
+        SetKind::Hybrid => "CMGs or wheels with thrusters",
         SetKind::Nothing => "Nothing",
     }
 }

@@ -168,7 +168,7 @@ mod tests {
             weighed("thirsty", 24.0, 20.0),
             weighed("frugal", 24.0, 10.0),
             weighed("weak", 12.0, 1.0),
-            set("unknown", SetKind::Gyros),
+            set("unknown", SetKind::Cmgs),
         ];
         let verdicts = vec![
             verdict("ideal", Yes, Yes),

@@ -1,4 +1,4 @@
-//! What follows from the verdicts: where gyros are needed, as the claim of a study has it, where they
+//! What follows from the verdicts: where CMGs are needed, as the claim of a study has it, where they
 //! are not, and what decides. Every sentence counts verdicts; none is written beforehand.
 
 mod beyond_sets;
@@ -25,7 +25,7 @@ pub(crate) fn findings(
     let all = Verdicts { claim, sets, tasks };
     let parts = [
         lightest(sets, &all.that(|_| true)),
-        all.only_gyros(),
+        all.only_cmgs(),
         all.wheels_suffice(),
         all.neither(),
         all.torque_decides(),

@@ -6,15 +6,15 @@ use crate::judgement::Answer;
 use crate::outcome::{Finding, SetKind};
 
 impl Verdicts<'_> {
-    /// The claim holds against wheels: a set of gyros does, no set of wheels.
-    pub(super) fn only_gyros(&self) -> Option<Finding> {
-        let gyros = |t, answer| self.some(t, SetKind::Gyros, answer);
+    /// The claim holds against wheels: a set of CMGs does, no set of wheels.
+    pub(super) fn only_cmgs(&self) -> Option<Finding> {
+        let cmgs = |t, answer| self.some(t, SetKind::Cmgs, answer);
         let tasks = self.that(|t| {
-            !self.some(t, SetKind::Wheels, Answer::WithSteering) && gyros(t, Answer::WithSteering)
+            !self.some(t, SetKind::Wheels, Answer::WithSteering) && cmgs(t, Answer::WithSteering)
         });
-        let steered = tasks.iter().filter(|t| !gyros(t, Answer::Yes)).count();
+        let steered = tasks.iter().filter(|t| !cmgs(t, Answer::Yes)).count();
         let mut text = format!(
-            "In {} of {} tasks a set of gyros suffices and no set of wheels does.",
+            "In {} of {} tasks a set of CMGs suffices and no set of wheels does.",
             tasks.len(),
             self.asked()
         );
@@ -24,8 +24,8 @@ impl Verdicts<'_> {
         }
         text += self.of_the_claim(" There the claim holds against wheels.");
         text += &self.thrusters_too(&tasks);
-        let both = self.has(SetKind::Wheels) && self.has(SetKind::Gyros);
-        both.then(|| finding("gyros are needed", text, &tasks))
+        let both = self.has(SetKind::Wheels) && self.has(SetKind::Cmgs);
+        both.then(|| finding("CMGs are needed", text, &tasks))
     }
     /// The claim is not needed: wheels do.
     pub(super) fn wheels_suffice(&self) -> Option<Finding> {
@@ -38,14 +38,14 @@ impl Verdicts<'_> {
         );
         self.has(SetKind::Wheels).then(|| finding("wheels suffice", text, &tasks))
     }
-    /// The claim is not enough: no gyros do either.
+    /// The claim is not enough: no CMGs do either.
     pub(super) fn neither(&self) -> Option<Finding> {
-        let stored = [SetKind::Wheels, SetKind::Gyros];
+        let stored = [SetKind::Wheels, SetKind::Cmgs];
         let tasks =
             self.that(|t| stored.iter().all(|kind| !self.some(t, *kind, Answer::WithSteering)));
         let worst = tasks.iter().map(|t| t.peak_torque_nm).fold(0.0, f64::max);
         let mut text = format!(
-            "In {} of {} tasks no set of wheels and no set of gyros suffices (up to {} N·m).",
+            "In {} of {} tasks no set of wheels and no set of CMGs suffices (up to {} N·m).",
             tasks.len(),
             self.asked(),
             rounded(worst)
@@ -59,7 +59,7 @@ impl Verdicts<'_> {
         }
         text += self.of_the_claim(" There the claim says too little.");
         text += &self.thrusters_too(&tasks);
-        self.has(SetKind::Gyros).then(|| finding("not even gyros", text, &tasks))
+        self.has(SetKind::Cmgs).then(|| finding("not even CMGs", text, &tasks))
     }
     /// Thrusters: what they can do, and what it costs.
     pub(super) fn thrusters(&self) -> Option<Finding> {

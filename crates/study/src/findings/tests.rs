@@ -78,9 +78,9 @@ fn text<'a>(all: &'a [Finding], about: &str) -> Option<&'a Finding> {
     all.iter().find(|finding| finding.about == about)
 }
 
-const SETS: [(&str, SetKind); 2] = [("wheels", SetKind::Wheels), ("gyros", SetKind::Gyros)];
+const SETS: [(&str, SetKind); 2] = [("wheels", SetKind::Wheels), ("CMGs", SetKind::Cmgs)];
 
-/// Three tasks: only gyros do, wheels do, nothing does.
+/// Three tasks: only CMGs do, wheels do, nothing does.
 #[test]
 fn the_claim_is_counted_where_it_holds_and_where_it_does_not() {
     use Answer::{No, WithSteering, Yes};
@@ -88,17 +88,17 @@ fn the_claim_is_counted_where_it_holds_and_where_it_does_not() {
     let mut slow = verdict("wheels", No, Yes);
     slow.slower.plain = Some(21.0);
     let tasks = [
-        task("fast", vec![slow, verdict("gyros", Yes, WithSteering)]),
-        task("light", vec![verdict("wheels", Yes, Yes), verdict("gyros", Yes, Yes)]),
-        task("heavy", vec![verdict("wheels", No, No), verdict("gyros", No, Yes)]),
+        task("fast", vec![slow, verdict("CMGs", Yes, WithSteering)]),
+        task("light", vec![verdict("wheels", Yes, Yes), verdict("CMGs", Yes, Yes)]),
+        task("heavy", vec![verdict("wheels", No, No), verdict("CMGs", No, Yes)]),
     ];
-    let all = findings(Some(ClaimIs::GyrosNeeded), &sets, &tasks);
-    let holds = text(&all, "gyros are needed").unwrap();
+    let all = findings(Some(ClaimIs::CmgsNeeded), &sets, &tasks);
+    let holds = text(&all, "CMGs are needed").unwrap();
     assert!(holds.text.starts_with("In 1 of 3 tasks"), "{}", holds.text);
     assert!(holds.text.ends_with("There the claim holds against wheels."), "{}", holds.text);
     assert_eq!(holds.tasks, ["fast"]);
     assert_eq!(text(&all, "wheels suffice").unwrap().tasks, ["light"]);
-    assert_eq!(text(&all, "not even gyros").unwrap().tasks, ["heavy"]);
+    assert_eq!(text(&all, "not even CMGs").unwrap().tasks, ["heavy"]);
     let torque = text(&all, "torque decides").unwrap();
     assert!(torque.tasks == ["fast"] && torque.text.contains("21.0 to 21 times"), "{torque:?}");
     assert_eq!(text(&all, "steering decides").unwrap().tasks, ["fast"]);
@@ -109,12 +109,12 @@ fn the_claim_is_counted_where_it_holds_and_where_it_does_not() {
 #[test]
 fn what_was_flown_is_told_by_its_tool_error() {
     let sets = SETS.map(|(name, kind)| set(name, kind));
-    let mut one = verdict("gyros", Answer::Yes, Answer::Yes);
+    let mut one = verdict("CMGs", Answer::Yes, Answer::Yes);
     one.flown = Some(flown());
     let tasks = [task("fast", vec![verdict("wheels", Answer::No, Answer::Yes), one])];
-    let all = findings(Some(ClaimIs::GyrosNeeded), &sets, &tasks);
+    let all = findings(Some(ClaimIs::CmgsNeeded), &sets, &tasks);
     let error = text(&all, "tool error decides").unwrap();
-    let told = "Gyros: suffice, 0.4 mm (requirements hold in 1 of 1 flights).";
+    let told = "CMGs: suffice, 0.4 mm (requirements hold in 1 of 1 flights).";
     assert!(error.text.contains(told) && !error.text.contains("Wheels"), "{error:?}");
 }
 
@@ -122,7 +122,7 @@ fn what_was_flown_is_told_by_its_tool_error() {
 fn where_nothing_was_flown_nothing_is_found() {
     let sets = SETS.map(|(name, kind)| set(name, kind));
     let unflown = TaskOutcome { unflown: Some("out of reach".into()), ..task("far", vec![]) };
-    assert_eq!(findings(Some(ClaimIs::GyrosNeeded), &sets, &[unflown]), []);
+    assert_eq!(findings(Some(ClaimIs::CmgsNeeded), &sets, &[unflown]), []);
     assert_eq!(findings(None, &sets, &[]), []);
 }
 
@@ -132,15 +132,15 @@ fn a_claim_of_another_kind_is_not_judged() {
     use Answer::{No, Yes};
     let sets = SETS.map(|(name, kind)| set(name, kind));
     let tasks = [
-        task("fast", vec![verdict("wheels", No, Yes), verdict("gyros", Yes, Yes)]),
-        task("light", vec![verdict("wheels", Yes, Yes), verdict("gyros", Yes, Yes)]),
-        task("heavy", vec![verdict("wheels", No, No), verdict("gyros", No, Yes)]),
+        task("fast", vec![verdict("wheels", No, Yes), verdict("CMGs", Yes, Yes)]),
+        task("light", vec![verdict("wheels", Yes, Yes), verdict("CMGs", Yes, Yes)]),
+        task("heavy", vec![verdict("wheels", No, No), verdict("CMGs", No, Yes)]),
     ];
     let judging = |claim| {
         let all = findings(claim, &sets, &tasks);
         all.iter().filter(|finding| finding.text.contains("claim")).count()
     };
-    assert_eq!((judging(None), judging(Some(ClaimIs::GyrosNeeded))), (0, 3));
+    assert_eq!((judging(None), judging(Some(ClaimIs::CmgsNeeded))), (0, 3));
 }
 
 #[test]
@@ -151,14 +151,14 @@ fn thrusters_are_named_where_they_suffice_too() {
     let jets =
         |name: &str, torque, fuel| SetVerdict { fuel_kg: Some(fuel), ..verdict(name, torque, Yes) };
     let with =
-        |small, large| vec![verdict("wheels", No, Yes), verdict("gyros", Yes, Yes), small, large];
+        |small, large| vec![verdict("wheels", No, Yes), verdict("CMGs", Yes, Yes), small, large];
     let tasks = [
         task("fast", with(jets("small", No, 0.9), jets("large", Yes, 0.3))),
         task("slow", with(jets("small", Yes, 0.2), jets("large", Yes, 0.4))),
         task("wild", with(jets("small", No, 0.9), jets("large", No, 0.9))),
     ];
     let all = findings(None, &sets, &tasks);
-    let told = &text(&all, "gyros are needed").unwrap().text;
+    let told = &text(&all, "CMGs are needed").unwrap().text;
     assert!(told.starts_with("In 3 of 3 tasks"), "{told}");
     assert!(told.contains("Thrusters suffice too in 2 of them, for up to 300 g"), "{told}");
     // Of those that suffice only.

@@ -45,9 +45,9 @@ impl<'a> Verdicts<'a> {
     pub(super) fn has(&self, kind: SetKind) -> bool {
         self.sets.iter().any(|set| set.kind == kind)
     }
-    /// What to say of the claim that gyros are needed, if the study makes it.
+    /// What to say of the claim that CMGs are needed, if the study makes it.
     pub(super) fn of_the_claim(&self, text: &'static str) -> &'static str {
-        if self.claim == Some(ClaimIs::GyrosNeeded) { text } else { "" }
+        if self.claim == Some(ClaimIs::CmgsNeeded) { text } else { "" }
     }
     /// That thrusters suffice in some of the tasks, and what the cheapest that do take at most (kg).
     pub(super) fn thrusters_too(&self, tasks: &[&'a TaskOutcome]) -> String {

@@ -6,14 +6,14 @@ use crate::demand::Demand;
 
 /// The two parts of a demand.
 pub(super) struct HybridSplit {
-    /// What wheels and gyros have to store.
+    /// What wheels and CMGs have to store.
     pub(super) stored: Demand,
     /// What thrusters have to give.
     pub(super) by_thrusters: Demand,
 }
 
 impl HybridSplit {
-    /// Beside wheels and gyros that hold all of the momentum, thrusters give what torque is missing. Else
+    /// Beside wheels and CMGs that hold all of the momentum, thrusters give what torque is missing. Else
     /// they take all that they can, and the others the rest.
     pub(super) fn of(demand: &Demand, own_motion: bool, capability: &Capability) -> Self {
         if !capability.is_hybrid() {

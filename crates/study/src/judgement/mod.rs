@@ -81,8 +81,8 @@ pub fn judge(demand: &Demand, capability: &Capability, own_motion: bool) -> Judg
     let best = torque_load(&demand, capability);
     let torque_load = Bounds { plain: run.torque_load.unwrap_or(best), best };
     let best = saturation_time(&stored, sustained, capability);
-    let no_gyros = capability.gyros.is_empty() || capability.is_unbounded();
-    let saturates = Bounds { plain: if no_gyros { best } else { run.saturates }, best };
+    let no_cmgs = capability.cmgs.is_empty() || capability.is_unbounded();
+    let saturates = Bounds { plain: if no_cmgs { best } else { run.saturates }, best };
     let end = demand.time.last().copied().unwrap_or_default();
     let fuel_alone = fuel(&by_thrusters, capability, false);
     let too_much = fuel_alone.zip(capability.propellant).is_some_and(|(fuel, tank)| fuel > tank);

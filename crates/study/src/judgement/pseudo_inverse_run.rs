@@ -1,4 +1,4 @@
-//! Gyros steered by the pseudo-inverse along a demand: their load, and how far they get.
+//! CMGs steered by the pseudo-inverse along a demand: their load, and how far they get.
 
 use super::torque_load::load;
 use crate::capability::Capability;
@@ -8,14 +8,14 @@ use wrasse_spatial::Vec3;
 
 /// What comes of pseudo-inverse steering along a demand.
 pub(super) struct PseudoInverseRun {
-    /// Largest torque over what the gimbals can give where they are then (–); none without gyros.
+    /// Largest torque over what the gimbals can give where they are then (–); none without CMGs.
     pub(super) torque_load: Option<f64>,
     /// Time of saturation (s): when the steering gets no further.
     pub(super) saturates: Option<f64>,
 }
 
 impl PseudoInverseRun {
-    /// `stored`: what wheels and gyros hold of the demand; `sustained`: the load after its end
+    /// `stored`: what wheels and CMGs hold of the demand; `sustained`: the load after its end
     /// (N·m·s/s).
     pub(super) fn follow(
         demand: &Demand,
@@ -23,11 +23,11 @@ impl PseudoInverseRun {
         sustained: Option<Vec3<f64>>,
         capability: &Capability,
     ) -> Self {
-        let Capability { gyros, gimbal_angle, .. } = capability;
-        if gyros.is_empty() {
+        let Capability { cmgs, gimbal_angle, .. } = capability;
+        if cmgs.is_empty() {
             return Self { torque_load: None, saturates: None };
         }
-        let path = steering_path(gyros, gimbal_angle, &gyro_momentum(stored, capability));
+        let path = steering_path(cmgs, gimbal_angle, &cmg_momentum(stored, capability));
         let asked = path.angles.iter().zip(&demand.torque_B);
         let loads =
             asked.map(|(angles, torque)| load(*torque, |d| capability.torque_at(angles, d)));
@@ -36,8 +36,8 @@ impl PseudoInverseRun {
     }
 }
 
-/// Momentum that is left to the gyros: wheels take what they can of the torque, until they are full.
-fn gyro_momentum(stored: &Demand, capability: &Capability) -> Vec<Vec3<f64>> {
+/// Momentum that is left to the CMGs: wheels take what they can of the torque, until they are full.
+fn cmg_momentum(stored: &Demand, capability: &Capability) -> Vec<Vec3<f64>> {
     let Capability { wheel_torque, wheel_momentum, .. } = capability;
     if wheel_momentum.is_empty() {
         return stored.momentum_B.clone();
@@ -65,6 +65,6 @@ fn saturation_time(
         return Some(from + share * (to - from));
     }
     let (rate, angles) = (sustained?, path.angles.last()?);
-    let left = steering_reach(&capability.gyros, angles, rate * (1.0 / rate.norm())).momentum;
+    let left = steering_reach(&capability.cmgs, angles, rate * (1.0 / rate.norm())).momentum;
     Some(demand.time.last()? + left / rate.norm())
 }

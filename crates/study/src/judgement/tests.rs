@@ -52,10 +52,10 @@ fn wheels() -> Capability {
     Capability::of(&equipment, Vec3::zero())
 }
 
-fn gyros(momentum: f64) -> Capability {
+fn cmgs(momentum: f64) -> Capability {
     let mut equipment = Equipment::default();
-    let gyros = pyramid(0.6, momentum).map(|gyro| ControlMomentGyro { rate_limit: 1.0, ..gyro });
-    equipment.actuators.gyros = List::new(&gyros);
+    let cmgs = pyramid(0.6, momentum).map(|cmg| ControlMomentGyro { rate_limit: 1.0, ..cmg });
+    equipment.actuators.cmgs = List::new(&cmgs);
     Capability::of(&equipment, Vec3::zero())
 }
 
@@ -83,10 +83,10 @@ fn a_motion_leaves_the_envelope_where_its_momentum_says() {
 
 /// The pyramid of 50 N·m·s stops at 60 with plain steering and holds 160 at most.
 #[test]
-fn gyros_answer_with_steering_between_the_inner_and_the_outer_surface() {
-    let answers = [50.0, 100.0, 200.0].map(|h| judge(&motion(h), &gyros(50.0), true).momentum);
+fn cmgs_answer_with_steering_between_the_inner_and_the_outer_surface() {
+    let answers = [50.0, 100.0, 200.0].map(|h| judge(&motion(h), &cmgs(50.0), true).momentum);
     assert_eq!(answers, [Answer::Yes, Answer::WithSteering, Answer::No]);
-    let verdict = judge(&motion(100.0), &gyros(50.0), true);
+    let verdict = judge(&motion(100.0), &cmgs(50.0), true);
     assert_eq!(verdict.time_scaling.best, Some(1.0));
     // 100 / 60 suffices for the momentum; the torque near the surface asks for a little more.
     let plain = verdict.time_scaling.plain.unwrap();
@@ -149,7 +149,7 @@ fn a_tank_that_holds_too_little_is_a_no() {
 /// 4 N·m along x: 60 N·m·s last 15 s, 160 last 40 s; three wheels of 50 last 12.5 s.
 #[test]
 fn a_torque_that_lasts_is_followed_beyond_the_task() {
-    let verdict = judge(&push(4.0), &gyros(50.0), false);
+    let verdict = judge(&push(4.0), &cmgs(50.0), false);
     assert_eq!((verdict.torque, verdict.momentum), (Answer::Yes, Answer::Yes));
     let (plain, best) = (verdict.saturates.plain.unwrap(), verdict.saturates.best.unwrap());
     // Measured 4.4e-4 and 6e-11.

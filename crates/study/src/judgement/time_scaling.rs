@@ -43,7 +43,7 @@ fn with_best_steering(torque_load: f64, demand: &Demand, capability: &Capability
 
 /// No less than with the best steering.
 fn with_pseudo_inverse(best: f64, demand: &Demand, capability: &Capability) -> Option<f64> {
-    if capability.gyros.is_empty() {
+    if capability.cmgs.is_empty() {
         return Some(best);
     }
     least_factor(best, |factor| {

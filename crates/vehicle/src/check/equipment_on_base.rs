@@ -47,7 +47,7 @@ fn check_base(
         |axis: Vec3<f64>, inertia: f64| Sym3::symmetric_part(&axis.outer(axis)).scaled(inertia);
     let actuators = &equipment.actuators;
     let wheels = actuators.wheels.iter().map(|wheel| about(wheel.axis_B, wheel.inertia));
-    let gimbals = actuators.gyros.iter().map(|gyro| about(gyro.gimbal_axis_B, gyro.gimbal_inertia));
+    let gimbals = actuators.cmgs.iter().map(|cmg| about(cmg.gimbal_axis_B, cmg.gimbal_inertia));
     let turning = wheels.chain(gimbals).fold(Sym3::zero(), |sum, one| sum + one);
     let [least, ..] = principal_moments(base.central() - turning);
     if least <= 0.0 {
@@ -58,12 +58,12 @@ fn check_base(
              {small}, {middle}, {large} kg·m²"
         );
         let help = "their inertia is part of the base's: is it in kg·m²?";
-        let key = if actuators.wheels.is_empty() { "gyro" } else { "wheel" };
+        let key = if actuators.wheels.is_empty() { "cmg" } else { "wheel" };
         reading.error(&under(path, key), message, "what turns", help);
     }
 }
 
-/// Thrusters alone must turn the vehicle both ways about each axis; beside wheels or gyros they need
+/// Thrusters alone must turn the vehicle both ways about each axis; beside wheels or CMGs they need
 /// not, but then cannot unload them.
 fn check_thrusters(
     reading: &mut Reading<'_>,
@@ -100,12 +100,12 @@ fn check_thrusters(
     );
     let single = reading.document.keys(path).contains(&"thruster");
     let place = under(path, if single { "thruster" } else { "thruster_set" });
-    if actuators.wheels.is_empty() && actuators.gyros.is_empty() {
-        let help = "add thrusters, wheels or gyros; a [[actuators.thruster_set]] of 12 on a box is \
+    if actuators.wheels.is_empty() && actuators.cmgs.is_empty() {
+        let help = "add thrusters, wheels or CMGs; a [[actuators.thruster_set]] of 12 on a box is \
                     enough for force and torque every way";
         reading.error(&place, message, "these thrusters", help);
     } else {
-        let help = "wheels or gyros that saturate this way cannot be unloaded";
+        let help = "wheels or CMGs that saturate this way cannot be unloaded";
         reading.warning(&place, message, "these thrusters", help);
     }
 }

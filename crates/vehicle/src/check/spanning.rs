@@ -1,10 +1,10 @@
-//! Whether wheels and gyros can make torque about every axis.
+//! Whether wheels and CMGs can make torque about every axis.
 
 use crate::figures::figures;
 use crate::table::Reading;
 use nalgebra::{Matrix3, SymmetricEigen};
 use std::ops::Range;
-use wrasse_hardware::{Actuators, GYROS};
+use wrasse_hardware::{Actuators, CMGS};
 use wrasse_spatial::{Sym3, Vec3};
 
 /// Below this (–) the axes lie in a plane: they are out of it by less than a thousandth of a radian.
@@ -12,23 +12,23 @@ const FLAT: f64 = 1e-6;
 /// More than any decomposition of three by three takes.
 const MOST_ITERATIONS: usize = 1000;
 
-/// Complains of wheels and gyros that cannot make torque about every axis, at the place of the first;
-/// doubts gyros that cannot do so at the start. With thrusters beside them it is all a doubt.
+/// Complains of wheels and CMGs that cannot make torque about every axis, at the place of the first;
+/// doubts CMGs that cannot do so at the start. With thrusters beside them it is all a doubt.
 pub(crate) fn check_spanning(
     reading: &mut Reading<'_>,
     actuators: &Actuators<f64>,
-    start: &[f64; GYROS],
+    start: &[f64; CMGS],
     at: &Range<usize>,
 ) {
-    let kinds = match (actuators.wheels.is_empty(), actuators.gyros.is_empty()) {
+    let kinds = match (actuators.wheels.is_empty(), actuators.cmgs.is_empty()) {
         (true, true) => return,
         (false, true) => "wheels",
-        (true, false) => "gyros",
-        (false, false) => "wheels and gyros",
+        (true, false) => "CMGs",
+        (false, false) => "wheels and CMGs",
     };
-    // What gyros can do at best they can do at almost all angles.
-    let somewhere: [f64; GYROS] = std::array::from_fn(|k| 0.4 + 1.1 * (k * k + k) as f64);
-    let elsewhere: [f64; GYROS] = std::array::from_fn(|k| 2.0 - 0.37 * (k * k * k) as f64);
+    // What CMGs can do at best they can do at almost all angles.
+    let somewhere: [f64; CMGS] = std::array::from_fn(|k| 0.4 + 1.1 * (k * k + k) as f64);
+    let elsewhere: [f64; CMGS] = std::array::from_fn(|k| 2.0 - 0.37 * (k * k * k) as f64);
     let (first, second) = (torque_axes(actuators, &somewhere), torque_axes(actuators, &elsewhere));
     let best = if rank(&second).0 > rank(&first).0 { second } else { first };
     let (rank, told) = rank(&best);
@@ -47,26 +47,26 @@ pub(crate) fn check_spanning(
     }
 }
 
-/// Doubts gyros that could make torque about every axis and cannot at the start.
+/// Doubts CMGs that could make torque about every axis and cannot at the start.
 fn doubt_start(
     reading: &mut Reading<'_>,
     actuators: &Actuators<f64>,
-    angles: &[f64; GYROS],
+    angles: &[f64; CMGS],
     at: &Range<usize>,
 ) {
     let (rank, told) = rank(&torque_axes(actuators, angles));
     if rank == 3 {
         return;
     }
-    let message = format!("at the start the gyros are singular: {told}");
+    let message = format!("at the start the CMGs are singular: {told}");
     let help = "other gimbal angles at the start, say 45, -45, 45, -45 deg, give torque every way";
-    reading.found.warning(at, message, "these gyros", help);
+    reading.found.warning(at, message, "these CMGs", help);
 }
 
-fn torque_axes(actuators: &Actuators<f64>, angles: &[f64; GYROS]) -> Vec<Vec3<f64>> {
+fn torque_axes(actuators: &Actuators<f64>, angles: &[f64; CMGS]) -> Vec<Vec3<f64>> {
     let wheels = actuators.wheels.iter().map(|wheel| wheel.axis_B);
-    let gyros = actuators.gyros.iter().zip(angles);
-    wheels.chain(gyros.map(|(gyro, &angle)| gyro.torque_axis(angle))).collect()
+    let cmgs = actuators.cmgs.iter().zip(angles);
+    wheels.chain(cmgs.map(|(cmg, &angle)| cmg.torque_axis(angle))).collect()
 }
 
 /// How many dimensions unit vectors span, and which direction is missing or which alone is there.

@@ -1,8 +1,8 @@
 //! The table `[actuators]`: the equipment of a base.
 
 use super::catalogue::ModelsUsed;
-use super::gyro::GyroFile;
-use super::gyro_array::GyroArrayFile;
+use super::cmg::CmgFile;
+use super::cmg_array::CmgArrayFile;
 use super::tank::{TankFile, tank};
 use super::thruster::ThrusterFile;
 use super::thruster_set::ThrusterSetFile;
@@ -16,10 +16,10 @@ use serde::Deserialize;
 use std::ops::Range;
 use wrasse_document::{Complaint, Document, Step};
 use wrasse_hardware::{
-    Actuators, ControlMomentGyro, GYROS, List, ReactionWheel, THRUSTERS, Thruster, WHEELS,
+    Actuators, CMGS, ControlMomentGyro, List, ReactionWheel, THRUSTERS, Thruster, WHEELS,
 };
 
-/// Wheels, gyros and thrusters of the base, and the tank of the thrusters.
+/// Wheels, CMGs and thrusters of the base, and the tank of the thrusters.
 ///
 /// Units are matter of the base: its mass and inertia include theirs. Propellant comes on top.
 /// Positions and directions are in the base's frame.
@@ -34,10 +34,12 @@ pub struct EquipmentFile {
     pub(crate) wheel: Vec<WheelFile>,
     /// Control moment gyros, one by one.
     #[serde(default)]
-    pub(crate) gyro: Vec<GyroFile>,
-    /// Arrays of equal control moment gyros; they come after those of `gyro`.
+    #[schemars(extend("x-formerly" = ["gyro"]))]
+    pub(crate) cmg: Vec<CmgFile>,
+    /// Arrays of equal control moment gyros; they come after those of `cmg`.
     #[serde(default)]
-    pub(crate) gyro_array: Vec<GyroArrayFile>,
+    #[schemars(extend("x-formerly" = ["gyro_array"]))]
+    pub(crate) cmg_array: Vec<CmgArrayFile>,
     /// Thrusters, one by one.
     #[serde(default)]
     pub(crate) thruster: Vec<ThrusterFile>,
@@ -81,14 +83,14 @@ pub(crate) fn equipment(
     });
     let mut provenance = std::mem::take(&mut sources.rows);
     provenance.append(&mut models.rows);
-    let Units { wheels, gyros, thrusters, .. } = &units;
+    let Units { wheels, cmgs, thrusters, .. } = &units;
     let actuators = Actuators {
         wheels: List::new(&bare(wheels)),
-        gyros: List::new(&bare(gyros)),
+        cmgs: List::new(&bare(cmgs)),
         thrusters: List::new(&bare(thrusters)),
         tank,
     };
-    let gimbal_angle = starts(gyros);
+    let gimbal_angle = starts(cmgs);
     if let Some(at) = units.first_that_turns().filter(|_| !units.broken) {
         check_spanning(reading, &actuators, &gimbal_angle, &at);
     }
@@ -96,7 +98,7 @@ pub(crate) fn equipment(
         name: file.name.clone().unwrap_or_else(|| units.name()),
         actuators,
         wheel_names: names(wheels, WHEELS),
-        gyro_names: names(gyros, GYROS),
+        cmg_names: names(cmgs, CMGS),
         thruster_names: names(thrusters, THRUSTERS),
         wheel_speed: starts(wheels),
         gimbal_angle,
@@ -132,7 +134,7 @@ struct Units {
     /// Names that stand in the file, and where.
     named: Vec<(String, Range<usize>)>,
     wheels: Vec<MountedUnit<ReactionWheel<f64>>>,
-    gyros: Vec<MountedUnit<ControlMomentGyro<f64>>>,
+    cmgs: Vec<MountedUnit<ControlMomentGyro<f64>>>,
     thrusters: Vec<MountedUnit<Thruster<f64>>>,
 }
 
@@ -148,9 +150,9 @@ impl Units {
         let mut all = Self::default();
         let mut context = (reading, sources, models, path);
         all.wheels = all.read(&mut context, &file.wheel);
-        all.gyros = all.read(&mut context, &file.gyro);
-        let of_arrays = all.read(&mut context, &file.gyro_array);
-        all.gyros.extend(of_arrays);
+        all.cmgs = all.read(&mut context, &file.cmg);
+        let of_arrays = all.read(&mut context, &file.cmg_array);
+        all.cmgs.extend(of_arrays);
         all.thrusters = all.read(&mut context, &file.thruster);
         let of_sets = all.read(&mut context, &file.thruster_set);
         all.thrusters.extend(of_sets);
@@ -175,11 +177,11 @@ impl Units {
         units
     }
     fn entries(&self) -> impl Iterator<Item = &UnitEntry> {
-        entries(&self.wheels).chain(entries(&self.gyros)).chain(entries(&self.thrusters))
+        entries(&self.wheels).chain(entries(&self.cmgs)).chain(entries(&self.thrusters))
     }
-    /// Where the first wheel or gyro stands.
+    /// Where the first wheel or CMG stands.
     fn first_that_turns(&self) -> Option<Range<usize>> {
-        entries(&self.wheels).chain(entries(&self.gyros)).next().map(|entry| entry.at.clone())
+        entries(&self.wheels).chain(entries(&self.cmgs)).next().map(|entry| entry.at.clone())
     }
     /// A number of all units together; `None` if there are none or one does not say it.
     fn sum(&self, of: impl Fn(&UnitEntry) -> Option<f64>) -> Option<f64> {
@@ -202,7 +204,7 @@ impl Units {
     fn check_counts(&self, reading: &mut Reading<'_>) {
         let kinds: [(_, Vec<_>, _); 3] = [
             ("wheels", entries(&self.wheels).collect(), WHEELS),
-            ("gyros", entries(&self.gyros).collect(), GYROS),
+            ("cmgs", entries(&self.cmgs).collect(), CMGS),
             ("thrusters", entries(&self.thrusters).collect(), THRUSTERS),
         ];
         for (what, units, most) in kinds {

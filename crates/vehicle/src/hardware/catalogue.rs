@@ -1,8 +1,8 @@
-//! The units that come with wrasse: wheels, gyros, thrusters and sensors that a file can name as its
+//! The units that come with wrasse: wheels, CMGs, thrusters and sensors that a file can name as its
 //! `model`.
 
 use super::numbers::{
-    GyroNumbers, Numbers, RateGyroNumbers, StarTrackerNumbers, ThrusterNumbers, WheelNumbers,
+    CmgNumbers, Numbers, RateGyroNumbers, StarTrackerNumbers, ThrusterNumbers, WheelNumbers,
     check_figures,
 };
 use crate::provenance::Provenance;
@@ -22,7 +22,7 @@ struct HardwareFile {
     wheel: Vec<Model<WheelNumbers>>,
     /// Control moment gyros.
     #[serde(default)]
-    gyro: Vec<Model<GyroNumbers>>,
+    cmg: Vec<Model<CmgNumbers>>,
     /// Thrusters.
     #[serde(default)]
     thruster: Vec<Model<ThrusterNumbers>>,
@@ -71,7 +71,7 @@ pub struct HardwareEntry {
 
 const FILES: [(&str, &str); 4] = [
     ("vehicles/hardware/wheels.toml", include_str!("../../../../vehicles/hardware/wheels.toml")),
-    ("vehicles/hardware/gyros.toml", include_str!("../../../../vehicles/hardware/gyros.toml")),
+    ("vehicles/hardware/cmgs.toml", include_str!("../../../../vehicles/hardware/cmgs.toml")),
     (
         "vehicles/hardware/thrusters.toml",
         include_str!("../../../../vehicles/hardware/thrusters.toml"),
@@ -86,7 +86,7 @@ static MODELS: LazyLock<HardwareFile> = LazyLock::new(|| {
         // Part of the program: a test reads each of these files.
         let file = document.and_then(|d| d.read::<HardwareFile>()).unwrap_or_default();
         all.wheel.extend(file.wheel);
-        all.gyro.extend(file.gyro);
+        all.cmg.extend(file.cmg);
         all.thruster.extend(file.thruster);
         all.rate_gyro.extend(file.rate_gyro);
         all.star_tracker.extend(file.star_tracker);
@@ -120,9 +120,9 @@ impl Catalogued for WheelNumbers {
         self
     }
 }
-impl Catalogued for GyroNumbers {
+impl Catalogued for CmgNumbers {
     fn models() -> &'static [Model<Self>] {
-        &MODELS.gyro
+        &MODELS.cmg
     }
     /// Torque is momentum times gimbal rate.
     fn beside(mut self, own: &Self) -> Self {
@@ -151,7 +151,7 @@ impl Catalogued for StarTrackerNumbers {
 /// All units of the hardware catalogue, kind by kind.
 pub fn hardware() -> Vec<HardwareEntry> {
     let mut all = entries::<WheelNumbers>();
-    all.extend(entries::<GyroNumbers>());
+    all.extend(entries::<CmgNumbers>());
     all.extend(entries::<ThrusterNumbers>());
     all.extend(entries::<RateGyroNumbers>());
     all.extend(entries::<StarTrackerNumbers>());
@@ -221,6 +221,10 @@ fn no_such_model<N: Catalogued>(name: &str) -> (String, String) {
         return (message, format!("\"{name}\" is a {}", other.kind));
     }
     let names = || N::models().iter().map(|model| model.name.as_str());
+    let renamed = name.replace("gyro", "cmg");
+    if name != renamed && names().any(|known| known == renamed) {
+        return (message, format!("\"{name}\" was renamed: write \"{renamed}\""));
+    }
     if let Some(meant) = closest(name, names()) {
         return (message, format!("did you mean \"{meant}\"?"));
     }

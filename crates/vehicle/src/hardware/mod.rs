@@ -3,8 +3,8 @@
 
 mod actuators;
 mod catalogue;
-mod gyro;
-mod gyro_array;
+mod cmg;
+mod cmg_array;
 mod numbers;
 mod rate_gyro;
 mod sensors;

@@ -92,7 +92,7 @@ unit_numbers! {
 
 unit_numbers! {
     /// What a control moment gyro can do.
-    GyroNumbers, "control moment gyro":
+    CmgNumbers, "control moment gyro":
     /// Momentum of the rotor (N·m·s).
     momentum_nms: positive(1e-3, 20_000.0),
     /// Largest gimbal rate (deg/s); follows from torque and momentum.

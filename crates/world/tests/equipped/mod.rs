@@ -1,10 +1,10 @@
-//! Wheels, gyros and thrusters for the tests: four wheels, a pyramid of four gyros, six thrusters
+//! Wheels, CMGs and thrusters for the tests: four wheels, a pyramid of four CMGs, six thrusters
 //! that push in all directions beside the centre of mass.
 #![allow(dead_code, reason = "each test binary uses its own part")]
 
 use wrasse_dynamics::{MassProperties, Robot, State};
 use wrasse_hardware::{
-    ActuatorCommand, Actuators, ControlMomentGyro, GYROS, List, ReactionWheel, THRUSTERS, Tank,
+    ActuatorCommand, Actuators, CMGS, ControlMomentGyro, List, ReactionWheel, THRUSTERS, Tank,
     Thruster, WHEELS,
 };
 use wrasse_spatial::{SpatialVelocity, Sym3, Vec3, vec3};
@@ -21,8 +21,8 @@ pub(crate) fn wheel(axis_B: Vec3<f64>) -> ReactionWheel<f64> {
     }
 }
 
-/// A gyro of 3 N·m·s with a quick servo.
-pub(crate) fn gyro(gimbal_axis_B: Vec3<f64>, spin_axis_B: Vec3<f64>) -> ControlMomentGyro<f64> {
+/// A CMG of 3 N·m·s with a quick servo.
+pub(crate) fn cmg(gimbal_axis_B: Vec3<f64>, spin_axis_B: Vec3<f64>) -> ControlMomentGyro<f64> {
     ControlMomentGyro {
         gimbal_axis_B: gimbal_axis_B * (1.0 / gimbal_axis_B.norm()),
         spin_axis_B: spin_axis_B * (1.0 / spin_axis_B.norm()),
@@ -54,13 +54,13 @@ pub(crate) fn four_wheels() -> List<ReactionWheel<f64>, WHEELS> {
     List::new(&axes.map(|axis| ReactionWheel { coulomb: 2e-3, viscous: 1e-4, ..wheel(axis) }))
 }
 
-pub(crate) fn pyramid() -> List<ControlMomentGyro<f64>, GYROS> {
+pub(crate) fn pyramid() -> List<ControlMomentGyro<f64>, CMGS> {
     let (s, c) = (0.8, 0.6);
     List::new(&[
-        gyro(vec3(s, 0.0, c), vec3(0.0, 1.0, 0.0)),
-        gyro(vec3(0.0, s, c), vec3(-1.0, 0.0, 0.0)),
-        gyro(vec3(-s, 0.0, c), vec3(0.0, -1.0, 0.0)),
-        gyro(vec3(0.0, -s, c), vec3(1.0, 0.0, 0.0)),
+        cmg(vec3(s, 0.0, c), vec3(0.0, 1.0, 0.0)),
+        cmg(vec3(0.0, s, c), vec3(-1.0, 0.0, 0.0)),
+        cmg(vec3(-s, 0.0, c), vec3(0.0, -1.0, 0.0)),
+        cmg(vec3(0.0, -s, c), vec3(1.0, 0.0, 0.0)),
     ])
 }
 
@@ -81,7 +81,7 @@ pub(crate) fn everything(seed: u64) -> Equipment {
     let mut equipment = Equipment { seed, ..Equipment::default() };
     equipment.actuators = Actuators {
         wheels: four_wheels(),
-        gyros: pyramid(),
+        cmgs: pyramid(),
         thrusters: six_thrusters(),
         tank: Some(Tank { position_B: vec3(-0.3, 0.1, 0.2), propellant: 8.0 }),
     };

@@ -29,8 +29,8 @@ const NAMES: [&str; 3] =
 
 const FRAMES: &str = "Vectors are in inertial axes, angular momentum is about the centre of mass \
      of everything simulated. What the attitude actuator stores is the opposite of its entry; what \
-     wheels and gyros store is part of start and end, and the work on the bodies of thrusters, \
-     wheels and gyros stands under the attitude actuator. Rests are the largest over the run.";
+     wheels and CMGs store is part of start and end, and the work on the bodies of thrusters, \
+     wheels and CMGs stands under the attitude actuator. Rests are the largest over the run.";
 
 /// The ledger of a case, or why there is none.
 pub(super) fn ledger(case: &CaseOutcome) -> Markup {
@@ -105,9 +105,9 @@ fn entries(ledger: &Ledger) -> [[Markup; 8]; 3] {
     ]
 }
 
-/// Where the angular momentum was at the start and at the end, if there are wheels or gyros.
+/// Where the angular momentum was at the start and at the end, if there are wheels or CMGs.
 fn stores(ledger: &Ledger) -> Option<Markup> {
-    let each = [("wheels", ledger.angular_in_wheels), ("gyros", ledger.angular_in_gyros)];
+    let each = [("wheels", ledger.angular_in_wheels), ("cmgs", ledger.angular_in_cmgs)];
     let holds = |[start, end]: &[[f64; 3]; 2]| start.iter().chain(end).any(|x| *x != 0.0);
     let there: Vec<_> = each.iter().filter(|(_, ends)| holds(ends)).collect();
     let body = html! {
