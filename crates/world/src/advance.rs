@@ -72,23 +72,42 @@ impl<const J: usize> Scene<J> {
     fn advance_evenly(
         &mut self,
         places: &mut Places<J>,
-        (from, to): (f64, f64),
+        (mut from, to): (f64, f64),
         step: f64,
     ) -> Result<(), NonFinite> {
-        let (count, h) = equal_steps(to - from, step);
-        let (mut done, clock) = (0.0, self.clock);
-        while done < count {
-            let t0 = clock.into_period + (from + done * h);
-            let mut method = std::mem::take(&mut self.runge_kutta);
-            let d = method.step(h, |t, d, rates| self.rates(places, (&clock, t0 + t), d, rates));
-            done += 1.0;
+        let into_period = self.clock.into_period;
+        // An event ends a step before its time: what is left is divided anew.
+        'restart: loop {
+            let (count, h) = equal_steps(to - from, step);
+            let mut done = 0.0;
+            while done < count {
+                let t0 = into_period + (from + done * h);
+                if self.has_events() {
+                    self.note_before_step(t0);
+                }
+                self.step_evenly(places, t0, h)?;
+                done += 1.0;
+                if self.has_events() {
+                    let gone = self.stop_at_events(places, (t0, h), Self::step_evenly)?;
+                    if gone < h {
+                        from = t0 + gone - into_period;
+                        continue 'restart;
+                    }
+                }
+            }
             // The last step ends where the stretch does, to the bit.
-            let gone = if done < count { from + done * h } else { to };
-            let accepted = self.accept(d, clock.into_period + gone);
-            self.runge_kutta = method;
-            accepted?;
+            self.set_points_at(into_period + to);
+            return Ok(());
         }
-        Ok(())
+    }
+
+    /// One step of fixed length from where the scene stands.
+    fn step_evenly(&mut self, places: &mut Places<J>, t0: f64, h: f64) -> Result<(), NonFinite> {
+        let (mut method, clock) = (std::mem::take(&mut self.runge_kutta), self.clock);
+        let d = method.step(h, |t, d, rates| self.rates(places, (&clock, t0 + t), d, rates));
+        let accepted = self.accept(d, t0 + h);
+        self.runge_kutta = method;
+        accepted
     }
 
     fn advance_adaptively(
@@ -97,23 +116,31 @@ impl<const J: usize> Scene<J> {
         (from, to): (f64, f64),
         tolerance: f64,
     ) -> Result<(), NonFinite> {
-        let clock = self.clock;
-        let (mut t0, end) = (clock.into_period + from, clock.into_period + to);
+        let into_period = self.clock.into_period;
+        let (mut t0, end) = (into_period + from, into_period + to);
         let mut h = self.last_step.min(to - from);
         while t0 < end {
             let rest = end - t0;
             let last = h >= rest * (1.0 - 1e-12);
             let trial = if last { rest } else { h };
-            let mut method = std::mem::take(&mut self.dormand_prince);
-            method.step(trial, |t, d, rates| self.rates(places, (&clock, t0 + t), d, rates));
-            let size = (method.largest_error() / tolerance).max(1e-10);
+            let size = (self.try_step(places, t0, trial) / tolerance).max(1e-10);
             // Order 5 in the step asks for the fifth root. The fourth finds the step as well, and
             // square roots are the same bits on every machine.
             let factor = (0.9 / size.sqrt().sqrt()).clamp(0.2, 5.0);
-            let mut accepted = Ok(());
             if size <= 1.0 || !size.is_finite() {
-                t0 = if last { end } else { t0 + trial };
-                accepted = self.accept(method.displacement(), t0);
+                if self.has_events() {
+                    self.note_before_step(t0);
+                }
+                let ends = if last { end } else { t0 + trial };
+                self.accept_tried(ends)?;
+                let mut gone = trial;
+                if self.has_events() {
+                    gone = self.stop_at_events(places, (t0, trial), |scene, places, t0, h| {
+                        scene.try_step(places, t0, h);
+                        scene.accept_tried(t0 + h)
+                    })?;
+                }
+                t0 = if gone < trial { t0 + gone } else { ends };
                 if !last || factor < 1.0 {
                     self.last_step = trial * factor;
                 }
@@ -121,10 +148,32 @@ impl<const J: usize> Scene<J> {
             } else {
                 h = trial * factor;
             }
-            self.dormand_prince = method;
-            accepted?;
         }
         Ok(())
+    }
+
+    /// Try a step from where the scene stands; its estimated error.
+    fn try_step(&mut self, places: &mut Places<J>, t0: f64, h: f64) -> f64 {
+        let (mut method, clock) = (std::mem::take(&mut self.dormand_prince), self.clock);
+        method.step(h, |t, d, rates| self.rates(places, (&clock, t0 + t), d, rates));
+        let error = method.largest_error();
+        self.dormand_prince = method;
+        error
+    }
+
+    /// Accept the step that was tried last; it ends at `t` (s) into the set-points.
+    fn accept_tried(&mut self, t: f64) -> Result<(), NonFinite> {
+        let method = std::mem::take(&mut self.dormand_prince);
+        let accepted = self.accept(method.displacement(), t);
+        self.dormand_prince = method;
+        accepted
+    }
+
+    /// Joints that follow set-points are where these are at `t` (s), to the bit.
+    fn set_points_at(&mut self, t: f64) {
+        for system in self.systems.iter_mut().flatten() {
+            system.follow_set_points(t);
+        }
     }
 
     /// Add a displacement to all systems and to the bookings; `t` (s) is where the set-points are then.

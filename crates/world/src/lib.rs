@@ -9,6 +9,7 @@ mod advance;
 mod command;
 mod couplings;
 mod effectors;
+mod events;
 mod failure;
 mod free_body;
 mod grasp;
@@ -30,6 +31,8 @@ pub use couplings::{Bushing, Coupling, FrameMotion};
 pub use effectors::{
     AppliedWrench, Course, Effector, GimbalMotors, Instant, Load, Stage, TankWithPropellant, Told,
 };
+pub use effectors::{FlexibleJoint, FlexibleJoints, JointSpring, PassiveJoints};
+pub use events::{Crossing, Event, EventValue, Happening};
 pub use failure::Failure;
 pub use free_body::FreeBody;
 pub use grasp::{GraspRefused, GripOffset};

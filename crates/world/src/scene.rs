@@ -2,6 +2,7 @@
 
 use crate::couplings::{Coupled, Coupling};
 use crate::effectors::{AppliedWrench, Effector, GimbalMotors};
+use crate::events::Watched;
 use crate::free_body::FreeBody;
 use crate::integrate::{DormandPrince, RungeKutta4, Stepper};
 use crate::setup::{BaseAttitude, Drive, SystemSetup};
@@ -56,6 +57,7 @@ pub struct Scene<const J: usize> {
     pub(crate) booked_carry: Vec<f64>,
     /// Propellant that left (kg).
     pub(crate) propellant: f64,
+    pub(crate) watched: Watched<J>,
     pub(crate) runge_kutta: RungeKutta4,
     pub(crate) dormand_prince: DormandPrince,
     /// Places for the right-hand side; they are away while it is worked out.
@@ -84,6 +86,7 @@ impl<const J: usize> Scene<J> {
             booked: vec![0.0; Bookings::NUMBERS],
             booked_carry: vec![0.0; Bookings::NUMBERS],
             propellant: 0.0,
+            watched: Watched::default(),
             runge_kutta: RungeKutta4::default(),
             dormand_prince: DormandPrince::default(),
             places: Cell::new(None),
@@ -151,6 +154,7 @@ impl<const J: usize> Scene<J> {
             Stepper::Adaptive { .. } => self.dormand_prince = DormandPrince::new(length),
         }
         self.places.set(Some(Box::new(Places::new(self.systems.len(), length))));
+        self.make_room_for_events();
     }
     /// All systems that are there.
     pub fn systems(&self) -> impl Iterator<Item = SystemId> + '_ {
@@ -171,6 +175,10 @@ impl<const J: usize> Scene<J> {
     /// Time (s).
     pub fn time(&self) -> f64 {
         self.clock.time
+    }
+    /// Time (s), within a period too: where an event happens.
+    pub fn time_within_period(&self) -> f64 {
+        self.clock.period_start + self.clock.into_period
     }
     /// Impulses and work since the start.
     pub fn booked(&self) -> Bookings {
@@ -221,6 +229,13 @@ impl<const J: usize> Scene<J> {
     pub fn effector_variables(&self, id: SystemId, effector: usize) -> &[f64] {
         let system = self.system(id);
         &system.row[system.variables.effector(effector)]
+    }
+    /// Set variables of an effector, by its number: where it starts from.
+    pub fn set_effector_variables(&mut self, id: SystemId, effector: usize, own: &[f64]) {
+        let system = self.system_mut(id);
+        let at = system.variables.effector(effector);
+        system.carry[at.clone()].fill(0.0);
+        system.row[at].copy_from_slice(own);
     }
     /// A rigid body that floats by itself; of a system with joints its base alone.
     pub fn body(&self, id: SystemId) -> FreeBody {

@@ -8,6 +8,8 @@ use wrasse_spatial::{SpatialForce, Vec3};
 pub enum Source {
     /// The motors of the joints.
     JointDrives,
+    /// Springs and dampers of joints: work alone.
+    JointSprings,
     /// The ideal attitude actuator, and what holds an attitude exactly.
     AttitudeActuator,
     /// Reaction wheels: work on the bodies alone, for what they store is counted as it is.
@@ -28,10 +30,11 @@ pub enum Source {
 
 impl Source {
     /// How many there are.
-    pub const COUNT: usize = 9;
+    pub const COUNT: usize = 10;
     /// All of them, in the order in which they are shown.
     pub const ALL: [Self; Self::COUNT] = [
         Self::JointDrives,
+        Self::JointSprings,
         Self::AttitudeActuator,
         Self::Wheels,
         Self::Cmgs,

@@ -3,7 +3,7 @@
 use crate::couplings::{Coupled, FrameMotion};
 use crate::effectors::{Load, Stage};
 use crate::scene::{Clock, Scene, SystemId};
-use crate::setup::BaseAttitude;
+use crate::setup::{BaseAttitude, Drive};
 use crate::source::{Booking, Bookings, Source};
 use crate::system::System;
 use crate::variables::{put_vector, vector};
@@ -32,6 +32,8 @@ pub(crate) struct SystemPlaces<const J: usize> {
     /// The variables and the attitude at the stage.
     row: Vec<f64>,
     quat_NB: Quat<f64>,
+    /// Efforts on the joints beside what drives them (N·m or N).
+    on_joints: [f64; J],
     /// Wrenches on the bodies at their origins in their axes, where anything pushes them.
     on_bodies: Option<Box<PerBody<SpatialForce<f64>, J>>>,
     /// Of couplings about the origin of N, inertial axes.
@@ -48,6 +50,7 @@ impl<const J: usize> Default for SystemPlaces<J> {
             state: State::default(),
             row: vec![],
             quat_NB: Quat::identity(),
+            on_joints: [0.0; J],
             on_bodies: None,
             coupled_N: SpatialForce::zero(),
             internal_B: Vec3::zero(),
@@ -195,7 +198,7 @@ impl<const J: usize> System<J> {
         let (on_base, total_N) = self.load(clock, t, at, rates, booked);
         let mut outside = at.on_bodies.as_ref().map_or_else(Outside::nothing, |on| (&**on).into());
         outside.base += on_base;
-        let (nu, drives) = (at.state.velocity(), self.joint_drives(t));
+        let (nu, drives) = (at.state.velocity(), self.joint_drives(t, &at.on_joints));
         let mode = self.base.mode();
         accelerate(&self.robot, &at.configuration, &nu, &drives, mode, outside, &mut at.forward);
         self.book_drives(at, booked);
@@ -223,19 +226,21 @@ impl<const J: usize> System<J> {
         rates: &mut [f64],
         booked: &mut [f64],
     ) -> (SpatialForce<f64>, SpatialForce<f64>) {
-        let SystemPlaces { configuration, state, row, on_bodies, coupled_N, .. } = at;
+        let SystemPlaces { configuration, state, row, on_joints, on_bodies, coupled_N, .. } = at;
         let sees_links = self.effectors.iter().any(|e| e.sees_links());
         let posture = sees_links.then_some(configuration.posture);
         let k = posture.map(|posture| Kinematics { robot: &self.robot, state, posture });
         let (period_start, within) = (clock.period_start, clock.within);
-        let stage = Stage { state, k: k.as_ref(), period_start, t, within };
+        let drives = &self.drives;
+        let stage = Stage { state, drives, k: k.as_ref(), period_start, t, within };
+        *on_joints = [0.0; J];
         let (mut on_base, mut total_N) = (SpatialForce::zero(), *coupled_N);
         let mut internal_B = Vec3::zero();
         for (i, effector) in self.effectors.iter().enumerate() {
             if self.base == BaseAttitude::Held && !effector.acts_on_held_base() {
                 continue;
             }
-            let mut load = Load::nothing(on_bodies);
+            let mut load = Load::nothing(on_joints, on_bodies);
             let own = self.variables.effector(i);
             effector.act(&stage, &row[own.clone()], &mut load, &mut rates[own]);
             let given = load.given(state);
@@ -257,7 +262,12 @@ impl<const J: usize> System<J> {
             Booking::of_turn(state.X_NB.rotation * torque_B, torque_B.dot(state.V_NB_B.angular));
         Bookings::book(booked, Source::AttitudeActuator, &by_actuator);
         let joints = self.robot.joints();
-        let power = joints.fold(0.0, |sum, j| sum + found.force.joints[j] * state.v[j]);
+        // What springs do beside the drives is booked as theirs.
+        let by_drive = |j: usize| match self.drives[j] {
+            Drive::Effort(tau) => tau,
+            Drive::Follow(_) => found.force.joints[j] - at.on_joints[j],
+        };
+        let power = joints.fold(0.0, |sum, j| sum + by_drive(j) * state.v[j]);
         Bookings::book(booked, Source::JointDrives, &Booking::of_work(power));
     }
 }

@@ -206,13 +206,14 @@ impl<const J: usize> System<J> {
         state
     }
 
-    /// What is given of the joints, `t` (s) into the current set-points.
-    pub(crate) fn joint_drives(&self, t: f64) -> [JointDrive<f64>; J] {
+    /// What is given of the joints, `t` (s) into the current set-points; `beside` the drives other efforts
+    /// act (N·m or N).
+    pub(crate) fn joint_drives(&self, t: f64, beside: &[f64; J]) -> [JointDrive<f64>; J] {
         let mut drives = [JointDrive::Effort(0.0); J];
         for j in self.robot.joints() {
             drives[j] = match &self.drives[j] {
                 Drive::Follow(motion) => JointDrive::Acceleration(motion.at(t).acceleration),
-                Drive::Effort(tau) => JointDrive::Effort(*tau),
+                Drive::Effort(tau) => JointDrive::Effort(*tau + beside[j]),
             };
         }
         drives
@@ -223,6 +224,11 @@ impl<const J: usize> System<J> {
         self.quat_NB = turned_by(self.quat_NB, vector(d, 0));
         let own = self.row.iter_mut().zip(d).zip(&mut self.carry).skip(3);
         own.for_each(|((x, d), carry)| add_compensated(x, *d, carry));
+        self.follow_set_points(t);
+    }
+
+    /// Joints that follow set-points are where these are at `t` (s).
+    pub(crate) fn follow_set_points(&mut self, t: f64) {
         let (q, v) = (self.variables.q().start, self.variables.v().start);
         for j in self.robot.joints() {
             if let Drive::Follow(motion) = &self.drives[j] {

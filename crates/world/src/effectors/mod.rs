@@ -3,18 +3,23 @@
 
 mod applied_wrench;
 mod cmgs;
+mod flexible_joints;
+mod passive_joints;
 mod tank;
 mod thrusters;
 mod wheels;
 
 pub use applied_wrench::{AppliedWrench, Course, Instant};
 pub(crate) use cmgs::Cmgs;
+pub use flexible_joints::{FlexibleJoint, FlexibleJoints};
+pub use passive_joints::{JointSpring, PassiveJoints};
 pub use tank::TankWithPropellant;
 pub(crate) use thrusters::Thrusters;
 pub(crate) use wheels::Wheels;
 
 use crate::command::Saturation;
 use crate::failure::Failure;
+use crate::setup::Drive;
 use crate::source::{Booking, Source};
 use std::fmt::Debug;
 use wrasse_dynamics::{BodyId, Kinematics, MassProperties, PerBody, State};
@@ -104,6 +109,8 @@ pub struct Told<'a> {
 pub struct Stage<'a, const J: usize> {
     /// How it stands and moves.
     pub state: &'a State<f64, J>,
+    /// What drives its joints.
+    pub drives: &'a [Drive; J],
     /// Where its links are, where an effector asks for that.
     pub k: Option<&'a Kinematics<'a, f64, J>>,
     /// Start of the control period (s).
@@ -121,6 +128,8 @@ pub struct Load<'a, const J: usize> {
     pub on_base: SpatialForce<f64>,
     /// Torque on the base of what turns against it, base axes (N·m): no momentum comes or goes.
     pub internal_B: Vec3<f64>,
+    /// On joints, beside what drives them (N·m or N).
+    pub(crate) on_joints: &'a mut [f64; J],
     /// On all bodies, at their origins in their axes.
     pub(crate) on_bodies: &'a mut Option<Box<PerBody<SpatialForce<f64>, J>>>,
     /// About the origin of N, inertial axes, of what is on bodies.
@@ -131,9 +140,18 @@ pub struct Load<'a, const J: usize> {
 
 impl<'a, const J: usize> Load<'a, J> {
     /// No load yet.
-    pub(crate) fn nothing(on_bodies: &'a mut Option<Box<PerBody<SpatialForce<f64>, J>>>) -> Self {
-        let none = SpatialForce::zero();
-        Self { on_base: none, internal_B: Vec3::zero(), on_bodies, total_N: none, power: 0.0 }
+    pub(crate) fn nothing(
+        on_joints: &'a mut [f64; J],
+        on_bodies: &'a mut Option<Box<PerBody<SpatialForce<f64>, J>>>,
+    ) -> Self {
+        let (none, internal_B) = (SpatialForce::zero(), Vec3::zero());
+        Self { on_base: none, internal_B, on_joints, on_bodies, total_N: none, power: 0.0 }
+    }
+    /// A torque (N·m) or force (N) on a joint that moves at a rate (rad/s or m/s), beside what drives it.
+    /// A joint that follows set-points does so all the same.
+    pub fn drive(&mut self, joint: usize, rate: f64, effort: f64) {
+        self.on_joints[joint] += effort;
+        self.power += effort * rate;
     }
     /// What it gives the bodies of a system: wrench about the origin of N and power.
     pub(crate) fn given(&self, state: &State<f64, J>) -> Booking {
