@@ -6,7 +6,8 @@ use std::hint::black_box;
 use std::time::Duration;
 use wrasse_bench::{BATCHES, KERNELS, Places, Quantity, STATES, Subject, subject, widened};
 use wrasse_spatial::{Instructions, Lanes, Level, Real, Work};
-use wrasse_world::{BaseAttitude, Equipment, Stepper, World, WorldSetup};
+use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_world::{BaseAttitude, Equipment, Stepper};
 
 /// Samples as the peers take them: fifteen batches.
 fn settings() -> Criterion {
@@ -84,10 +85,10 @@ fn many<I: Instructions, const J: usize>(group: &mut Group<'_>, subject: &Subjec
 /// Length of a coasting step (s), as for the peer.
 const STEP: f64 = 1e-3;
 
-fn coasting<const J: usize>(of: &Subject<f64, J>) -> World<J> {
+fn coasting<const J: usize>(of: &Subject<f64, J>) -> OneSystem<J> {
     let mut start = of.states[0].0;
     start.v = start.v.map(|v| 0.1 * v);
-    World::new(&WorldSetup {
+    OneSystem::new(&OneSystemSetup {
         robot: &of.robot,
         limits: &[],
         actuator: None,

@@ -4,7 +4,7 @@ use wrasse_dynamics::{BodyId, Frame, Kinematics, PerBody};
 use wrasse_flight::Axes;
 use wrasse_spatial::{Mat3, Real, SpatialForce, Vec3};
 use wrasse_vehicle::JOINTS;
-use wrasse_world::{Instant, OutsideWrench};
+use wrasse_world::{Course, Instant};
 
 /// A force and a torque at the origin of a frame, for a while.
 #[derive(Debug, Clone, Copy)]
@@ -78,7 +78,7 @@ pub(crate) fn felt(
 const AFTER: f64 = 1e-9;
 
 /// All of them together, as the world asks for them, and the times at which they bend (s).
-pub(crate) fn together(wrenches: Vec<AppliedWrench>) -> (OutsideWrench<JOINTS>, Vec<f64>) {
+pub(crate) fn together(wrenches: Vec<AppliedWrench>) -> (Course<JOINTS>, Vec<f64>) {
     let bends = wrenches.iter().flat_map(AppliedWrench::bends).collect();
     let course = move |at: Instant, k: &Kinematics<'_, f64, JOINTS>| {
         let mut on_bodies = PerBody::filled(SpatialForce::zero());

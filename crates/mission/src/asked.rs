@@ -1,6 +1,7 @@
 //! What is asked of drives and actuators, whatever their limits leave of it. A use that saw only what was
 //! given could never pass its limit, and no requirement of it could fail.
 
+use crate::case_world::CaseWorld;
 use crate::mission::Case;
 use crate::observe::Observation;
 use crate::read_base::Turning;
@@ -9,7 +10,7 @@ use wrasse_flight::Command;
 use wrasse_hardware::{ActuatorReadings, CMGS};
 use wrasse_spatial::Vec3;
 use wrasse_vehicle::JOINTS;
-use wrasse_world::{BaseAttitude, World};
+use wrasse_world::BaseAttitude;
 
 /// What is asked of the joints' drives and of whatever turns the base.
 pub(crate) struct ActuatorDemand {
@@ -26,7 +27,7 @@ impl ActuatorDemand {
     pub(crate) fn of(
         case: &Case,
         command: &Command<f64, JOINTS>,
-        world: &World<JOINTS>,
+        world: &CaseWorld,
         seen: &Observation,
     ) -> Self {
         let (rates, flown) = (&seen.state.v, &seen.dynamics.force.joints);
@@ -41,7 +42,7 @@ impl ActuatorDemand {
     }
 }
 
-fn torque_cut(case: &Case, command: &Command<f64, JOINTS>, world: &World<JOINTS>) -> Vec3<f64> {
+fn torque_cut(case: &Case, command: &Command<f64, JOINTS>, world: &CaseWorld) -> Vec3<f64> {
     match case.turning {
         Turning::Fitted => command.allocation.missing.torque,
         Turning::Ideal(_) if case.base == BaseAttitude::Controlled => {
@@ -85,9 +86,9 @@ pub(crate) fn gimbal_rates(
 
 /// Torque of each gimbal's motor (N·m): the one that it gives now, or the one that it would have needed
 /// to do as it was told, where that is more.
-pub(crate) fn gimbal_motors(world: &World<JOINTS>) -> [f64; CMGS] {
-    let (given, asked) = (world.gimbal_motor_torque(), world.gimbal_motor_asked());
-    from_fn(|i| larger(given[i], asked[i]))
+pub(crate) fn gimbal_motors(world: &CaseWorld) -> [f64; CMGS] {
+    let motors = world.gimbal_motors();
+    from_fn(|i| larger(motors.now[i], motors.needed[i]))
 }
 
 /// The one that is farther from zero; what is not a number is farthest.

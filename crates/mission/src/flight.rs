@@ -1,9 +1,9 @@
 //! A flight under way: the flight computer and the world, and what passes between them.
 
-use crate::case_world::{believed_alone, world_of};
+use crate::case_world::{CaseWorld, believed_alone};
 use crate::dead_band::DeadBand;
 use crate::limits_passed::Passed;
-use crate::mission::{Case, PayloadStart};
+use crate::mission::Case;
 use crate::outcome::{End, Event, EventKind};
 use crate::overlap::Overlap;
 use crate::plan::cannot_begin;
@@ -14,7 +14,7 @@ use wrasse_flight::{Command, FlightComputer};
 use wrasse_hardware::{CMGS, SetPoint, SetPointMotion, THRUSTERS, WHEELS};
 use wrasse_spatial::{Quat, Vec3};
 use wrasse_vehicle::{JOINTS, VehicleRobot};
-use wrasse_world::{Drive, Saturation, Stepper, World};
+use wrasse_world::{Drive, Saturation, Stepper};
 
 /// Most limits that can cut the commands of a period: efforts, an ideal actuator's torque and momentum,
 /// wheels' and CMGs' two limits each, thrusters and their tank.
@@ -29,7 +29,7 @@ pub(crate) struct Flight<'a> {
     pub(crate) case: &'a Case,
     /// Whether it tells what happens beside what ends it.
     pub(crate) telling: bool,
-    pub(crate) world: World<JOINTS>,
+    pub(crate) world: CaseWorld,
     pub(crate) computer: FlightComputer<f64, JOINTS>,
     pub(crate) sensing: Sensing,
     pub(crate) refusals: Refusals,
@@ -48,10 +48,6 @@ pub(crate) struct Flight<'a> {
     pub(crate) unloads: bool,
     /// Angle of the estimated attitude from the true one (rad); NaN where nothing is estimated.
     pub(crate) estimate_error: f64,
-    /// Number of each payload among the world's free bodies, while it floats.
-    pub(crate) floating: Vec<Option<usize>>,
-    /// Payloads in the grips, in the world's order.
-    pub(crate) holding: Vec<usize>,
     /// The vehicle that the computer believes in, with nothing in its grips and tank, where its masses
     /// are otherwise in truth.
     pub(crate) believed_alone: Option<VehicleRobot>,
@@ -71,14 +67,7 @@ pub(crate) struct Flight<'a> {
 impl<'a> Flight<'a> {
     /// A flight at its start; `telling`: it notes what a report says of it.
     pub(crate) fn new(case: &'a Case, stepper: Stepper, telling: bool) -> Self {
-        let mut world = world_of(case, stepper);
-        let is_held = |i: &usize| matches!(case.payloads[*i].start, PayloadStart::Held(_));
-        let payloads = 0..case.payloads.len();
-        let floats = |i| {
-            (!is_held(&i)).then(|| world.add_free_body(case.free_body(i, case.payloads[i].matter)))
-        };
-        let floating = payloads.clone().map(floats).collect();
-        let holding: Vec<usize> = payloads.filter(is_held).collect();
+        let world = CaseWorld::new(case, stepper);
         let start = |j: usize| SetPoint {
             position: case.start.q[j],
             rate: case.start.v[j],
@@ -102,8 +91,6 @@ impl<'a> Flight<'a> {
             lost: false,
             unloads: false,
             estimate_error: f64::NAN,
-            floating,
-            holding,
             believed_alone,
             cut: Vec::with_capacity(LIMITS),
             set_points: core::array::from_fn(start),
@@ -135,7 +122,7 @@ impl<'a> Flight<'a> {
     /// What the flight computer says to what the sensors say.
     fn command(&mut self) -> Result<Command<f64, JOINTS>, End> {
         let sensed = self.sensing.read(self.case, &self.world);
-        let quat_NB = self.world.system().quat_NB;
+        let quat_NB = self.world.quat_NB();
         let time = self.world.time();
         // What the planning let pass, the truth may still refuse: by then things have moved.
         let command = self.computer.step(&sensed).map_err(|bad| {
@@ -181,7 +168,7 @@ impl<'a> Flight<'a> {
             Turning::Fitted => Vec3::zero(),
         };
         let told = &command.actuators;
-        self.world.command_noting(&drives, torque_B, told, period, &mut self.cut);
+        self.world.command((&drives, torque_B), told, period, &mut self.cut);
         if self.telling {
             self.tell_cut(command);
         }
@@ -226,7 +213,7 @@ impl<'a> Flight<'a> {
     /// Angle of the base from the attitude that it began with (rad).
     pub(crate) fn turned(&self) -> f64 {
         let start = Quat::from_matrix(&self.case.start.X_NB.rotation);
-        (start.conjugate() * self.world.system().quat_NB).log().norm()
+        (start.conjugate() * self.world.quat_NB()).log().norm()
     }
 
     /// Let units fail whose time has come, and tell the computer of those that it is told of.

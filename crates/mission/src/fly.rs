@@ -43,7 +43,7 @@ pub(crate) fn fly(
     let mut end = End::Completed;
     let mut demand = vec![];
     let tool = flight.world.pose(flight.computer.tool()).translation;
-    snapshots.push(snapshot(case, &flight.world, &flight.payload_poses(), [tool; 2]));
+    snapshots.push(snapshot(case, &flight.world, &flight.world.payload_poses(), [tool; 2]));
     for period in 0..plan.periods {
         let command = match flight.next_period() {
             Ok(command) => command,
@@ -52,7 +52,7 @@ pub(crate) fn fly(
                 break;
             }
         };
-        track.follow(&command, &flight.computer, &flight.world.system().quat_NB);
+        track.follow(&command, &flight.computer, &flight.world.quat_NB());
         flight.world.update_ledger(&mut ledger);
         let error = flight.estimate_error;
         let truth = Truth::of(&flight.world, Needs::ALL);
@@ -70,7 +70,7 @@ pub(crate) fn fly(
         if is_snapshot(done, plan.periods, case.snapshots) {
             let reference = command.reference.X_NE.translation;
             let tips = [seen.X_NE.translation, reference];
-            snapshots.push(snapshot(case, &flight.world, &flight.payload_poses(), tips));
+            snapshots.push(snapshot(case, &flight.world, &flight.world.payload_poses(), tips));
         }
         last = Some(seen);
         if let Some(stop) = flight.grip(&command) {

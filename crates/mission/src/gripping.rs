@@ -2,7 +2,7 @@
 
 use crate::flight::Flight;
 use crate::outcome::{End, EventKind};
-use wrasse_dynamics::{BodyId, Frame, MassProperties, kinematics};
+use wrasse_dynamics::{BodyId, Frame, MassProperties};
 use wrasse_flight::{Command, Grip};
 use wrasse_spatial::{Pose, Sym3};
 use wrasse_vehicle::{JOINTS, VehicleRobot};
@@ -24,28 +24,9 @@ impl Flight<'_> {
             }
             None => alone,
         };
-        let held = self.holding.iter().zip(self.world.held());
-        held.fold(fed, |robot, (&i, (frame, _))| {
-            robot.with_payload(frame, &self.case.believed_matter(i))
+        self.world.held().fold(fed, |robot, (i, held)| {
+            robot.with_payload(&held.frame, &self.case.believed_matter(i))
         })
-    }
-
-    /// Where each payload's centre of mass is, and how it is turned.
-    pub(crate) fn payload_poses(&self) -> Vec<(usize, Pose<f64>)> {
-        let state = self.world.state();
-        let k = kinematics(self.world.robot(), &state);
-        let at_cm = |X: Pose<f64>, i: usize, matter: &MassProperties<f64>| {
-            let p_cm = X.point(matter.M_F_F.centre_of_mass());
-            (i, Pose::new(X.rotation, p_cm))
-        };
-        let held = self.holding.iter().zip(self.world.held());
-        let held = held.map(|(&i, (frame, matter))| at_cm(k.pose(frame), i, matter));
-        let floating = self.floating.iter().enumerate().filter_map(|(i, n)| n.map(|n| (i, n)));
-        let floating = floating.map(|(i, n)| {
-            let body = &self.world.free_bodies()[n];
-            at_cm(body.pose(), i, &body.matter)
-        });
-        held.chain(floating).collect()
     }
 
     /// At the end of a control period: what the command told the grip; why the flight ends, if it is
@@ -72,18 +53,14 @@ impl Flight<'_> {
 
     fn grasp(&mut self, i: usize, most: GripOffset) -> Result<String, String> {
         let name = &self.case.payloads[i].name;
-        let Some(number) = self.floating[i] else {
-            return Err(format!("{name} does not float: it is held already"));
-        };
+        let held_already = || format!("{name} does not float: it is held already");
         let tool = *self.computer.tool();
-        let found = self.world.grip_offset(&tool, number);
+        let found = self.world.grip_offset(&tool, i).ok_or_else(held_already)?;
         let change = self
             .world
-            .grasp(&tool, number, &most)
-            .map_err(|GraspRefused(found)| refusal(name, &found, &most))?;
-        self.floating[i] = None;
-        self.floating.iter_mut().flatten().filter(|n| **n > number).for_each(|n| *n -= 1);
-        self.holding.push(i);
+            .grasp(&tool, i, &most)
+            .map_err(|GraspRefused(found)| refusal(name, &found, &most))?
+            .ok_or_else(held_already)?;
         Ok(format!(
             "grasped {name}: its grip {:.2} mm and {:.3} deg from the tool (at most {} mm and {} deg); \
              energy changes by {change:.3e} J",
@@ -96,11 +73,9 @@ impl Flight<'_> {
 
     fn release(&mut self, i: usize) -> Result<String, String> {
         let name = &self.case.payloads[i].name;
-        let Some(number) = self.holding.iter().position(|&held| held == i) else {
+        if !self.world.release(i) {
             return Err(format!("{name} cannot be released: nobody holds it"));
-        };
-        self.holding.remove(number);
-        self.floating[i] = Some(self.world.release(number));
+        }
         Ok(format!("released {name}"))
     }
 }

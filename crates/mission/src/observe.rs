@@ -2,6 +2,7 @@
 
 use crate::arm_shape::{reach_margin, smallest_singular_value};
 use crate::asked::{ActuatorDemand, gimbal_motors, gimbal_rates, wheel_speeds};
+use crate::case_world::CaseWorld;
 use crate::mission::Case;
 use crate::quantity::FIXED_COUNT;
 use crate::read_base::Turning;
@@ -13,7 +14,7 @@ use wrasse_flight::{Axes, Command, FlightComputer};
 use wrasse_hardware::ActuatorReadings;
 use wrasse_spatial::{Mat3, Pose, Quat, SpatialForce, SpatialVelocity, Vec3};
 use wrasse_vehicle::JOINTS;
-use wrasse_world::{BaseAttitude, World};
+use wrasse_world::BaseAttitude;
 
 /// The truth at one instant.
 #[derive(Debug, Clone)]
@@ -152,20 +153,20 @@ impl Track {
 /// The truth, as far as it is looked at.
 #[derive(Debug)]
 pub(crate) struct Truth<'a> {
-    world: &'a World<JOINTS>,
+    world: &'a CaseWorld,
     state: State<f64, JOINTS>,
     dynamics: Dynamics<f64, JOINTS>,
 }
 
 impl<'a> Truth<'a> {
     /// That of a world now.
-    pub(crate) fn of(world: &'a World<JOINTS>, needs: Needs) -> Self {
+    pub(crate) fn of(world: &'a CaseWorld, needs: Needs) -> Self {
         let dynamics = needs.dynamics.then(|| world.dynamics());
         Self::seen(world, &world.state(), dynamics.as_ref())
     }
     /// That of a world whose state is known, and its accelerations and forces if they are asked for.
     pub(crate) fn seen(
-        world: &'a World<JOINTS>,
+        world: &'a CaseWorld,
         state: &State<f64, JOINTS>,
         dynamics: Option<&Dynamics<f64, JOINTS>>,
     ) -> Self {
@@ -205,7 +206,7 @@ pub(crate) fn observe(
         dynamics,
         torque_B: match case.turning {
             _ if !needs.dynamics => nothing,
-            Turning::Fitted if stores_momentum(case) => world.turning_torque_B(),
+            Turning::Fitted if stores_momentum(case) => world.internal_torque_B(),
             // Thrusters come in pulses: there is no torque at an instant that says anything.
             Turning::Fitted => nothing,
             Turning::Ideal(_) => world.actuator_torque_B() + dynamics.force.base.torque,
@@ -266,7 +267,7 @@ fn not_looked_at() -> Dynamics<f64, JOINTS> {
 }
 
 /// Largest torque of a gimbal's motor (N·m); NaN without CMGs.
-fn motor_torque(case: &Case, world: &World<JOINTS>) -> f64 {
+fn motor_torque(case: &Case, world: &CaseWorld) -> f64 {
     if case.equipment.actuators.cmgs.is_empty() {
         return f64::NAN;
     }

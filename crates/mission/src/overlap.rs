@@ -48,8 +48,8 @@ impl Flight<'_> {
         let X_BN = seen.state.X_NB.inverse();
         let p_BE = (X_BN * seen.X_NE).translation;
         self.found_inside(None, first, |solid| solid.depth(p_BE));
-        for number in 0..self.holding.len() {
-            let Some((i, X_NL, edges)) = self.held_box(seen, number) else { continue };
+        for i in 0..self.case.payloads.len() {
+            let Some((X_NL, edges)) = self.held_box(seen, i) else { continue };
             let X = X_BN * X_NL;
             let smaller = edges.map(|x| (x - 2.0 * TOUCHING).max(0.0));
             let inner = Solid { X, kind: ShapeKind::Box(smaller) };
@@ -60,14 +60,13 @@ impl Flight<'_> {
         }
     }
 
-    /// What is held under this number: which payload, the pose of its box, and its edges (m).
-    fn held_box(&self, seen: &Observation, number: usize) -> Option<(usize, Pose<f64>, Vec3<f64>)> {
-        let i = self.holding[number];
-        let edges = Vec3::from_array(self.case.payloads[i].box_m?);
-        let (frame, matter) = &self.world.held()[number];
-        let X = kinematics(self.world.robot(), &seen.state).pose(frame);
-        let middle = X.point(matter.M_F_F.centre_of_mass());
-        Some((i, Pose::new(X.rotation, middle), edges))
+    /// Of a payload that is held and has a box: the box's pose, and its edges (m).
+    fn held_box(&self, seen: &Observation, payload: usize) -> Option<(Pose<f64>, Vec3<f64>)> {
+        let edges = Vec3::from_array(self.case.payloads[payload].box_m?);
+        let (_, held) = self.world.held().find(|(i, _)| *i == payload)?;
+        let X = kinematics(self.world.robot(), &seen.state).pose(&held.frame);
+        let middle = X.point(held.matter.M_F_F.centre_of_mass());
+        Some((Pose::new(X.rotation, middle), edges))
     }
 
     fn found_inside(

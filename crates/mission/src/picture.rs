@@ -1,11 +1,11 @@
 //! The vehicle at one instant, as lines and boxes.
 
+use crate::case_world::CaseWorld;
 use crate::mission::Case;
 use crate::outcome::{Snapshot, SnapshotBox};
 use wrasse_dynamics::{BodyId, Kinematics, kinematics};
 use wrasse_spatial::{Pose, Vec3};
 use wrasse_vehicle::{JOINTS, ShapeKind};
-use wrasse_world::World;
 
 /// The corners of a box of these edges (m), centred on a pose.
 fn corners(X_NF: &Pose<f64>, edges: Vec3<f64>) -> [[f64; 3]; 8] {
@@ -31,7 +31,7 @@ fn edges(kind: ShapeKind) -> Vec3<f64> {
 /// tool and its reference.
 pub(crate) fn snapshot(
     case: &Case,
-    world: &World<JOINTS>,
+    world: &CaseWorld,
     payloads: &[(usize, Pose<f64>)],
     tips: [Vec3<f64>; 2],
 ) -> Snapshot {

@@ -223,7 +223,7 @@ fn fly_for_verdicts(case: &Case, plan: &Plan, planned: &SamplePlan<'_>) -> Flown
                 break;
             }
         };
-        track.follow(&command, &flight.computer, &flight.world.system().quat_NB);
+        track.follow(&command, &flight.computer, &flight.world.quat_NB());
         flight.world.update_ledger(&mut books);
         let (error, needs) = (flight.estimate_error, planned.needs);
         let truth = Truth::of(&flight.world, needs);

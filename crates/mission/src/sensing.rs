@@ -1,13 +1,14 @@
 //! From the truth through the sensors to what the flight computer is given.
 
 use crate::applied_wrench::felt;
+use crate::case_world::CaseWorld;
 use crate::limits_passed::Passed;
 use crate::mission::Case;
 use wrasse_dynamics::kinematics;
 use wrasse_flight::{AttitudeEstimate, BaseReading, JointReading, Sensed};
 use wrasse_hardware::Sensors;
 use wrasse_vehicle::JOINTS;
-use wrasse_world::{SensorSuite, World};
+use wrasse_world::SensorSuite;
 
 /// The sensors of a flight; without any they are perfect.
 #[derive(Debug)]
@@ -24,7 +25,7 @@ impl Sensing {
     }
 
     /// What the sensors say now.
-    pub(crate) fn read(&mut self, case: &Case, world: &World<JOINTS>) -> Sensed<f64, JOINTS> {
+    pub(crate) fn read(&mut self, case: &Case, world: &CaseWorld) -> Sensed<f64, JOINTS> {
         let (state, period) = (world.state(), case.period());
         let mut perfect = Sensed::perfect(&state, world.actuator_readings());
         if case.measures_wrench {
@@ -33,7 +34,7 @@ impl Sensing {
             perfect.tool_wrench_E = Some(felt(&case.wrenches, tool, world.time(), &k));
         }
         let Some((sensors, suite)) = &mut self.suite else { return perfect };
-        let (quat_NB, w_NB_B) = (world.system().quat_NB, state.V_NB_B.angular);
+        let (quat_NB, w_NB_B) = (world.quat_NB(), state.V_NB_B.angular);
         let read = suite.read(quat_NB, w_NB_B, &state.q, world.time(), period);
         self.blinded = read.blinded;
         let base = match sensors.attitude {

@@ -7,7 +7,7 @@ use crate::quantity::place;
 use crate::read_base::Turning;
 use wrasse_dynamics::JointKind;
 use wrasse_spatial::Vec3;
-use wrasse_world::Ledger;
+use wrasse_world::{Ledger, Source};
 
 /// Collects samples into channels; the channels are made by the first sample.
 #[derive(Debug, Default)]
@@ -158,7 +158,7 @@ impl Recorder {
     }
 
     fn books(&mut self, ledger: &Ledger) {
-        let [angular, linear, energy] = ledger.rests();
+        let [angular, linear, energy] = ledger.residuals();
         let plot = "Ledger: what nobody booked, relative to what is there";
         let relative = |rest: f64, scale: f64| if scale > 0.0 { rest / scale } else { 0.0 };
         self.put(plot, "angular", "ledger.angular_rest", "–", relative(angular, ledger.scale[0]));
@@ -166,7 +166,9 @@ impl Recorder {
         self.put(plot, "energy", "ledger.energy_rest", "–", relative(energy, ledger.scale[2]));
         let plot = "Energy";
         self.put(plot, "kinetic", "energy.kinetic", "J", ledger.now.energy);
-        let [joints, actuator, _] = ledger.work.to_array();
+        let work = |source: Source| ledger.sources[source].work;
+        let turned = [Source::AttitudeActuator, Source::Wheels, Source::Cmgs, Source::Thrusters];
+        let (joints, actuator) = (work(Source::JointDrives), turned.map(work).iter().sum());
         self.put(plot, "from the joints", "energy.from_joints", "J", joints);
         self.put(plot, "from the attitude control", "energy.from_attitude", "J", actuator);
     }

@@ -55,6 +55,14 @@ pub enum NakamuraHanafusa1986 {}
 /// space formulation*, IEEE Journal on Robotics and Automation 3(1), 1987.
 #[derive(Debug)]
 pub enum Khatib1987 {}
+/// F. Bullo, R. Murray, *Tracking for fully actuated mechanical systems: a geometric framework*,
+/// Automatica 35(1), 1999.
+#[derive(Debug)]
+pub enum BulloMurray1999 {}
+/// M. Spong, *Modeling and control of elastic joint robots*, ASME Journal of Dynamic Systems, Measurement,
+/// and Control 109, 1987.
+#[derive(Debug)]
+pub enum Spong1987 {}
 /// B. Wie, *Space Vehicle Dynamics and Control*, 2nd ed., AIAA, 2008.
 #[derive(Debug)]
 pub enum Wie2008 {}

@@ -1,7 +1,9 @@
 //! What drives the joints and turns the base in a control period, within its limits.
 
+use crate::effectors::Told;
+use crate::scene::{Scene, SystemId};
 use crate::setup::{BaseAttitude, Drive};
-use crate::world::World;
+use crate::system::System;
 use wrasse_hardware::{ActuatorCommand, AttitudeActuatorLimit};
 use wrasse_spatial::Vec3;
 
@@ -30,34 +32,48 @@ pub enum Saturation {
     TankEmpty,
 }
 
-impl<const J: usize> World<J> {
-    /// Set what drives the joints and turns the base for the coming period of `period` (s), each
-    /// within its limits; what the limits cut is returned.
-    pub fn command(
-        &mut self,
-        drives: &[Drive],
-        torque_B: Vec3<f64>,
-        actuators: &ActuatorCommand<f64>,
-        period: f64,
-    ) -> Vec<Saturation> {
-        let mut cut = Vec::new();
-        self.command_noting(drives, torque_B, actuators, period, &mut cut);
-        cut
+impl<const J: usize> Scene<J> {
+    /// A control period begins: set-points, pulses and applied wrenches count from here. A system that
+    /// was commanded once is commanded anew in each period.
+    pub fn begin_period(&mut self) {
+        let clock = &mut self.clock;
+        clock.gone = clock.into_period;
+        (clock.period_start, clock.into_period) = (clock.time, 0.0);
     }
 
-    /// The same, and what the limits cut is put into `cut` in place of what is there: no heap is touched
-    /// once it is large enough.
-    pub fn command_noting(
+    /// Set what drives the joints of a system and turns its base for the period of `period` (s) that has
+    /// begun, each within its limits. What the limits cut is put into `cut` in place of what is there:
+    /// no heap is touched once it is large enough.
+    ///
+    /// # Panics
+    /// If the system is part of another now.
+    pub fn command(
         &mut self,
-        drives: &[Drive],
-        torque_B: Vec3<f64>,
+        id: SystemId,
+        (drives, torque_B): (&[Drive], Vec3<f64>),
         actuators: &ActuatorCommand<f64>,
         period: f64,
         cut: &mut Vec<Saturation>,
     ) {
         cut.clear();
-        let gone = self.into_period;
-        (self.period_start, self.into_period) = (self.time, 0.0);
+        let gone = self.clock.gone;
+        let w_NB_B = self.state(id).V_NB_B.angular;
+        let system = self.system_mut(id);
+        system.command_joints(drives, cut);
+        system.actuator_torque_B = match system.base {
+            BaseAttitude::Controlled => system.within_limits(torque_B, w_NB_B, period, cut),
+            BaseAttitude::Held | BaseAttitude::Free => Vec3::zero(),
+        };
+        // On a base that is held they do not act, whatever they are told.
+        if system.base != BaseAttitude::Held {
+            let is_fed = system.is_fed();
+            system.command_effectors(&Told { actuators, w_NB_B, gone, period, is_fed }, cut);
+        }
+    }
+}
+
+impl<const J: usize> System<J> {
+    fn command_joints(&mut self, drives: &[Drive], cut: &mut Vec<Saturation>) {
         for (j, drive) in drives.iter().enumerate().take(J) {
             self.drives[j] = match (*drive, self.limits[j].effort) {
                 (Drive::Effort(tau), Some(limit)) if tau.abs() > limit => {
@@ -67,47 +83,31 @@ impl<const J: usize> World<J> {
                 (drive, _) => drive,
             };
         }
-        self.actuator_torque_B = Vec3::zero();
-        if self.base == BaseAttitude::Controlled {
-            self.actuator_torque_B = self.within_actuator_limits(torque_B, period, cut);
-        }
-        self.command_equipment(actuators, (gone, period), cut);
     }
 
-    /// Set wheels, CMGs and thrusters for a period (s), `gone` (s) after the last began. On a base that
-    /// is held they do not act, whatever they are told.
-    fn command_equipment(
-        &mut self,
-        told: &ActuatorCommand<f64>,
-        (gone, period): (f64, f64),
-        cut: &mut Vec<Saturation>,
-    ) {
-        if self.base == BaseAttitude::Held {
-            return;
+    fn command_effectors(&mut self, told: &Told<'_>, cut: &mut Vec<Saturation>) {
+        for (i, effector) in self.effectors.iter_mut().enumerate() {
+            effector.command(told, &self.row[self.variables.effector(i)], cut);
         }
-        if !(self.wheels.is_empty() && self.cmgs.count() == 0) {
-            let w_NB_B = self.state().V_NB_B.angular;
-            let s = &self.system;
-            let speed = self.wheels.speeds(&s.wheel_momentum, w_NB_B);
-            self.wheels.command(&told.wheel_torque, &speed, period, cut);
-            let (angle, rate) = (&s.gimbal_angle, &s.gimbal_rate);
-            self.cmgs.command(&told.gimbal_rate, angle, rate, w_NB_B, cut);
-        }
-        let is_fed = self.tank.is_none_or(|tank| tank.mass > 0.0);
-        self.thrusters.command(&told.thruster_on, (gone, period), is_fed, cut);
+    }
+
+    /// Whether there is propellant for its thrusters; without a tank they never run dry.
+    fn is_fed(&mut self) -> bool {
+        let mut tanks = self.effectors.iter_mut().filter_map(|e| e.tank());
+        tanks.next().is_none_or(|tank| tank.mass > 0.0)
     }
 
     /// The torque that the ideal actuator gives: within its torque, and within what it can store.
-    fn within_actuator_limits(
+    fn within_limits(
         &self,
         wanted_B: Vec3<f64>,
+        w_NB_B: Vec3<f64>,
         period: f64,
         cut: &mut Vec<Saturation>,
     ) -> Vec3<f64> {
         let Some(limits) = self.actuator else { return wanted_B };
-        let h_B = self.stored_momentum_B();
-        let h = (h_B, self.state().V_NB_B.angular.cross(h_B));
-        limits.given(wanted_B, h, period, |limit, axis| {
+        let h_B = self.actuator_momentum_B();
+        limits.given(wanted_B, (h_B, w_NB_B.cross(h_B)), period, |limit, axis| {
             cut.push(match limit {
                 AttitudeActuatorLimit::Torque => Saturation::ActuatorTorque(axis),
                 AttitudeActuatorLimit::Momentum => Saturation::ActuatorMomentum(axis),

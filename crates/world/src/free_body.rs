@@ -1,6 +1,5 @@
 //! A rigid body that floats by itself: a target before it is grasped, or after it is released.
 
-use crate::stepper::{Displacement, Stepper, equal_steps, runge_kutta_4};
 use wrasse_dynamics::MassProperties;
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Vec3, rotation_vector_rate, turned_by};
 
@@ -17,15 +16,6 @@ pub struct FreeBody {
     pub linear: Vec3<f64>,
     /// Angular momentum about its centre of mass, inertial axes (N·m·s).
     pub angular: Vec3<f64>,
-}
-
-impl Displacement for Vec3<f64> {
-    fn zero() -> Self {
-        Vec3::default()
-    }
-    fn plus(&self, h: f64, rate: &Self) -> Self {
-        *self + *rate * h
-    }
 }
 
 impl FreeBody {
@@ -62,30 +52,19 @@ impl FreeBody {
         let V = self.twist();
         0.5 * V.power(&(self.matter.M_F_F * V))
     }
-    /// Advance by `period` (s) in the steps of the world, or in steps that keep its tolerance.
-    pub(crate) fn advance(&mut self, period: f64, stepper: Stepper) {
-        let largest = match stepper {
-            Stepper::Fixed { step } => step,
-            // The error of a step is some thousandths of the turn to the fifth power. The fourth root
-            // is on the safe side, and the same bits on every machine; below 1e-3 rad round-off rules.
-            Stepper::Adaptive { tolerance } => {
-                tolerance.sqrt().sqrt().max(1e-3) / self.twist().angular.norm()
-            }
-        };
-        let (count, h) = equal_steps(period, largest);
-        let mut done = 0.0;
-        while done < count {
-            self.step(h);
-            done += 1.0;
-        }
-    }
-    /// Advance by `h` (s): momentum stays, the attitude follows it.
+    /// Advance by `h` (s) where nothing pushes it, as a plan does: momentum stays, the attitude follows
+    /// it, by a Runge–Kutta step of order 4.
     pub fn step(&mut self, h: f64) {
         let I = self.matter.M_F_F.central();
-        let u = runge_kutta_4(h, |_, u: &Vec3<f64>| {
-            let R_NT = (self.quat_NT * Quat::exp(*u)).to_matrix();
-            rotation_vector_rate(*u, I.solve(R_NT.transpose_mul(self.angular)))
-        });
+        let rate = |u: Vec3<f64>| {
+            let R_NT = (self.quat_NT * Quat::exp(u)).to_matrix();
+            rotation_vector_rate(u, I.solve(R_NT.transpose_mul(self.angular)))
+        };
+        let a = rate(Vec3::zero());
+        let b = rate(a * (0.5 * h));
+        let c = rate(b * (0.5 * h));
+        let d = rate(c * h);
+        let u = a * (h / 6.0) + b * (h / 3.0) + c * (h / 3.0) + d * (h / 6.0);
         self.quat_NT = turned_by(self.quat_NT, u);
         self.p_NTcm_N += self.linear * (h / self.matter.M_F_F.mass);
     }

@@ -1,13 +1,11 @@
 //! Grasp and release of rigid payloads: total momentum continues exactly.
 
 use crate::free_body::FreeBody;
-use crate::setup::Drive;
-use crate::world::World;
-use wrasse_dynamics::{
-    BodyId, Frame, JointDrive, Kinematics, PerBody, Robot, State, driven_dynamics,
-    inverse_dynamics, kinematics,
-};
-use wrasse_spatial::{Quat, SpatialForce, SpatialVelocity};
+use crate::scene::{HeldId, Scene, SystemId};
+use crate::source::{Booking, Source};
+use crate::system::Held;
+use wrasse_dynamics::{Frame, Kinematics, kinematics};
+use wrasse_spatial::{Quat, SpatialForce, SpatialVelocity, Vec3};
 
 /// How the grip of a payload lies in a tool and moves against it; or the most that a grasp allows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,140 +60,107 @@ fn relative_twist<const J: usize>(
     at_T.shifted_by(k.pose(frame).translation - X_NT.translation) - k.velocity(frame)
 }
 
-impl<const J: usize> World<J> {
-    /// Twist of free body `i` relative to a frame, at the frame's origin, inertial axes.
-    pub fn relative_twist(&self, frame: &Frame<f64>, i: usize) -> SpatialVelocity<f64> {
-        relative_twist(&kinematics(&self.robot, &self.state()), frame, &self.free[i])
+/// All of these panic if a system is part of another now.
+impl<const J: usize> Scene<J> {
+    /// Twist of a rigid body relative to a frame of a system, at the frame's origin, inertial axes.
+    pub fn relative_twist(
+        &self,
+        id: SystemId,
+        frame: &Frame<f64>,
+        body: SystemId,
+    ) -> SpatialVelocity<f64> {
+        let body = self.body(body);
+        self.with_kinematics(id, |k| relative_twist(k, frame, &body))
     }
 
-    /// How free body `i` lies in a tool frame and moves against it.
-    pub fn grip_offset(&self, tool: &Frame<f64>, i: usize) -> GripOffset {
-        GripOffset::of(&kinematics(&self.robot, &self.state()), tool, &self.free[i])
+    /// How a rigid body lies in a tool frame of a system and moves against it.
+    pub fn grip_offset(&self, id: SystemId, tool: &Frame<f64>, body: SystemId) -> GripOffset {
+        let body = self.body(body);
+        self.with_kinematics(id, |k| GripOffset::of(k, tool, &body))
     }
 
-    /// Make free body `i` part of the body that carries `frame`, where it is now: a plastic impact.
-    /// Total momentum continues exactly. Joints that are driven by torque give way; prescribed joints
-    /// keep their rates and a held base its attitude, whatever impulse that takes. The change of
-    /// energy (J) is returned.
+    /// Make a rigid body part of the body that carries `frame`, where it is now: a plastic impact. Total
+    /// momentum continues exactly. Joints that are driven by torque give way; prescribed joints keep
+    /// their rates and a held base its attitude, whatever impulse that takes. What holds it from now on
+    /// and the change of energy (J) are returned.
     ///
     /// # Errors
     /// If how it lies in the frame and moves against it is not within the bounds.
     ///
     /// # Panics
-    /// If no body of this number floats.
+    /// If the body has joints: it is no rigid body.
     pub fn grasp(
         &mut self,
+        id: SystemId,
         frame: &Frame<f64>,
-        i: usize,
+        grasped: SystemId,
         most: &GripOffset,
-    ) -> Result<f64, GraspRefused> {
-        let found = self.grip_offset(frame, i);
+    ) -> Result<(HeldId, f64), GraspRefused> {
+        assert_eq!(self.robot(grasped).joint_count(), 0, "what is grasped is a rigid body");
+        let found = self.grip_offset(id, frame, grasped);
         if !found.is_within(most) {
             return Err(GraspRefused(found));
         }
-        let body = self.free.remove(i);
-        let state = self.state();
-        let X_FT = self.pose(frame).inverse() * body.pose();
-        let alone = self.robot;
+        let (body, before) = (self.body(grasped), self.state(id));
+        let X_FT = self.pose(id, frame).inverse() * body.pose();
+        let brought = self.system(grasped).momentum();
+        let (robot, mass) = (self.system(id).robot, self.system(grasped).mass);
+        let system = self.system_mut(id);
         // Held by its own frame: let go, it has it again.
-        self.held.push((Frame { body: frame.body, X_BF: frame.X_BF * X_FT }, body.matter));
-        let m = self.mass;
-        let total = m + body.matter.M_F_F.mass;
-        self.rebuild(total);
-        let s = &mut self.system;
-        let p_cm = (s.p_NScm_N * m + body.p_NTcm_N * body.matter.M_F_F.mass) * (1.0 / total);
-        s.angular += (s.p_NScm_N - p_cm).cross(s.linear)
-            + body.angular
-            + (body.p_NTcm_N - p_cm).cross(body.linear);
-        s.linear += body.linear;
-        s.p_NScm_N = p_cm;
-        let change = self.impact(&alone, &state, frame.body, &body);
-        self.energy_at_grasps += change;
-        Ok(change)
-    }
-
-    /// Joint rates after the impact, and the impulse that holds the base; the change of energy (J).
-    ///
-    /// At the instant only momentum counts: `M⁺ ν⁺ = M ν + Jᵀ h` is forward dynamics at rest, with the
-    /// generalized momentum in place of the forces and the rates in place of the accelerations.
-    fn impact(
-        &mut self,
-        alone: &Robot<f64, J>,
-        before: &State<f64, J>,
-        grip: BodyId,
-        body: &FreeBody,
-    ) -> f64 {
-        let at_rest = State { V_NB_B: SpatialVelocity::zero(), v: [0.0; J], ..*before };
-        let none = PerBody::filled(SpatialForce::zero());
-        let own = inverse_dynamics(&kinematics(alone, &at_rest), &before.velocity(), &none).force;
-        let k = kinematics(&self.robot, &at_rest);
-        let X_NB = &k.X_NB(grip);
-        let h_N = SpatialForce::new(body.angular, body.linear);
-        let about_Bo = h_N.about(X_NB.translation - body.p_NTcm_N);
-        let brought = SpatialForce::new(
-            X_NB.rotation.transpose_mul(about_Bo.torque),
-            X_NB.rotation.transpose_mul(about_Bo.force),
+        let frame = Frame { body: frame.body, X_BF: frame.X_BF * X_FT };
+        let held = system.hold(Held { frame, matter: body.matter });
+        system.take_in(mass, brought);
+        let carrier = kinematics(&robot, &before).X_NB(frame.body);
+        let about_carrier =
+            SpatialForce::new(body.angular, body.linear).about(carrier.translation - body.p_NTcm_N);
+        let h_B = SpatialForce::new(
+            carrier.rotation.transpose_mul(about_carrier.torque),
+            carrier.rotation.transpose_mul(about_carrier.force),
         );
-        let mut momenta = none;
-        momenta[grip] += brought;
-        momenta.base += own.base;
-        let drives = core::array::from_fn(|j| match self.drives[j] {
-            Drive::Follow(_) => JointDrive::Acceleration(before.v[j]),
-            Drive::Effort(_) => JointDrive::Effort(own.joints[j]),
-        });
-        let found = driven_dynamics(&k, &drives, self.base.mode(), &momenta);
-        for j in self.robot.joints() {
-            self.system.v[j] = found.nudot.joints[j];
-        }
-        let holding_N = before.X_NB.rotation * found.force.base.torque;
-        self.system.angular += holding_N;
-        self.booked.from_actuator += holding_N;
-
-        let after = State { V_NB_B: found.nudot.base, v: found.nudot.joints, ..*before };
-        let k_after = kinematics(&self.robot, &after);
-        let mut twice = after.V_NB_B.power(&(own.base + found.force.base))
-            + k_after.V_NB_B(grip).power(&brought)
-            - before.V_NB_B.power(&own.base);
-        for j in self.robot.joints() {
-            twice += after.v[j] * found.force.joints[j] - before.v[j] * own.joints[j];
-        }
-        0.5 * twice - body.kinetic_energy()
+        let jump = system.jump(&robot, &before, (frame.body, h_B));
+        let holding_N = before.X_NB.rotation * jump.after.force.base.torque;
+        system.turn_by_actuator(holding_N);
+        let change = jump.energy - body.kinetic_energy();
+        self.book(Source::AttitudeActuator, &Booking::of_turn(holding_N, 0.0));
+        self.book(Source::Grasps, &Booking::of_work(change));
+        self.systems[grasped.0] = None;
+        self.make_room();
+        Ok((held, change))
     }
 
-    /// Let go of a payload, by its number in [`held`](Self::held). It goes on as it moves; its number
-    /// among the free bodies is returned.
+    /// Let go of a payload. It goes on as it moves, as a system of its own.
     ///
     /// # Panics
     /// If nothing of this number is held.
-    pub fn release(&mut self, number: usize) -> usize {
-        let (frame, payload) = self.held.remove(number);
-        let state = self.state();
-        let k = kinematics(&self.robot, &state);
-        let V_NF_F = k.V_NB_B(frame.body);
-        let V_NF_F = frame.X_BF.velocity_to_child(&V_NF_F);
-        let body = FreeBody::new(payload, &k.pose(&frame), &V_NF_F);
-        let m = self.mass - payload.M_F_F.mass;
-        let s = &mut self.system;
-        let p_cm = (s.p_NScm_N * self.mass - body.p_NTcm_N * payload.M_F_F.mass) * (1.0 / m);
-        s.linear -= body.linear;
-        s.angular = s.angular
-            - body.angular
-            - (body.p_NTcm_N - s.p_NScm_N).cross(body.linear)
-            - (p_cm - s.p_NScm_N).cross(s.linear);
-        s.p_NScm_N = p_cm;
-        self.free.push(body);
-        self.rebuild(m);
-        self.free.len() - 1
+    pub fn release(&mut self, id: SystemId, held: HeldId) -> SystemId {
+        let state = self.state(id);
+        let system = self.system_mut(id);
+        let Some(Held { frame, matter }) = system.held[held.0].take() else {
+            panic!("nothing of number {} is held", held.0)
+        };
+        let k = kinematics(&system.robot, &state);
+        let V_NF_F = frame.X_BF.velocity_to_child(&k.V_NB_B(frame.body));
+        let body = FreeBody::new(matter, &k.pose(&frame), &V_NF_F);
+        let released = self.add_body(&body);
+        let (p_cm, linear, angular) = self.system(released).momentum();
+        let mass = self.system(released).mass;
+        self.system_mut(id).take_in(-mass, (p_cm, -linear, -angular));
+        released
     }
+}
 
-    /// The robot with its propellant and with what is in its grips.
-    pub(crate) fn laden(&self) -> Robot<f64, J> {
-        let fed = self.tank.map_or(self.empty, |tank| tank.added_to(&self.empty));
-        self.held.iter().fold(fed, |robot, (frame, p)| robot.with_payload(frame, p))
+impl<const J: usize> crate::system::System<J> {
+    fn hold(&mut self, held: Held) -> HeldId {
+        self.held.push(Some(held));
+        HeldId(self.held.len() - 1)
     }
-
-    fn rebuild(&mut self, mass: f64) {
-        self.robot = self.laden();
-        self.mass = mass;
+    /// What it holds has changed: mass (kg), at its centre of mass with its momentum about the origin of
+    /// N, is added; or taken away, where all of that is negative but the place.
+    fn take_in(&mut self, mass: f64, (p_N, linear, angular): (Vec3<f64>, Vec3<f64>, Vec3<f64>)) {
+        let (own_p, own_linear, own_angular) = self.momentum();
+        let total = self.mass + mass;
+        let p_cm = (own_p * self.mass + p_N * mass) * (1.0 / total);
+        self.set_momentum(p_cm, own_linear + linear, own_angular + angular);
+        self.weigh();
     }
 }

@@ -6,34 +6,41 @@
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
 mod advance;
-mod cmgs;
 mod command;
+mod couplings;
+mod effectors;
+mod events;
 mod failure;
-mod flow;
 mod free_body;
-mod free_flight;
 mod grasp;
+mod impulse;
+mod integrate;
 mod ledger;
 mod noise;
-mod propellant;
-mod rates;
+mod scene;
 mod sensors;
 mod setup;
-mod stepper;
-mod thrusters;
-mod wheels;
-mod world;
+mod source;
+mod stage;
+mod system;
+mod variables;
 
 pub use advance::NonFinite;
 pub use command::Saturation;
+pub use couplings::{Bushing, Coupling, FrameMotion};
+pub use effectors::{
+    AppliedWrench, Course, Effector, GimbalMotors, Instant, Load, Stage, TankWithPropellant, Told,
+};
+pub use effectors::{FlexibleJoint, FlexibleJoints, JointSpring, PassiveJoints};
+pub use events::{Crossing, Event, EventValue, Happening};
 pub use failure::Failure;
-pub use flow::Flow;
 pub use free_body::FreeBody;
 pub use grasp::{GraspRefused, GripOffset};
+pub use integrate::{DormandPrince, RungeKutta4, Stepper};
 pub use ledger::{Account, Ledger};
 pub use noise::Noise;
-pub use propellant::Carried;
+pub use scene::{CouplingId, HeldId, Scene, SystemId};
 pub use sensors::{SensorReadings, SensorSuite};
-pub use setup::{BaseAttitude, Drive, Equipment, Instant, OutsideWrench, WorldSetup};
-pub use stepper::{Displacement, Judged, Stepper, dormand_prince, runge_kutta_4};
-pub use world::{SystemState, World};
+pub use setup::{BaseAttitude, Drive, Equipment, SystemSetup};
+pub use source::{Booking, Bookings, Source};
+pub use system::Held;

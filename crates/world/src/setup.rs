@@ -1,9 +1,7 @@
-//! What a world is made of.
+//! What a system is made of.
 
-use crate::stepper::Stepper;
-use wrasse_dynamics::{Frame, Kinematics, MassProperties, PerBody, Robot, State};
+use wrasse_dynamics::{BaseMode, Frame, MassProperties, Robot, State};
 use wrasse_hardware::{Actuators, AttitudeActuator, CMGS, JointLimits, SetPointMotion, WHEELS};
-use wrasse_spatial::SpatialForce;
 
 /// What becomes of the base's attitude.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,6 +15,16 @@ pub enum BaseAttitude {
     Free,
 }
 
+impl BaseAttitude {
+    /// What holds the base.
+    pub(crate) fn mode(self) -> BaseMode {
+        match self {
+            Self::Held => BaseMode::AttitudeHeld,
+            Self::Free | Self::Controlled => BaseMode::Free,
+        }
+    }
+}
+
 /// What drives a joint for the current control period.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Drive<T = f64> {
@@ -25,21 +33,6 @@ pub enum Drive<T = f64> {
     /// A torque (N·m) or force (N), constant over the period.
     Effort(T),
 }
-
-/// An instant that a wrench from outside is asked for.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Instant {
-    /// Time (s).
-    pub time: f64,
-    /// A time inside the stretch between two bends to which the instant belongs (s): at a bend itself
-    /// it tells before from after.
-    pub within: f64,
-}
-
-/// A wrench from outside on each body at its origin, in its axes, as a function of the instant and of
-/// how the bodies stand and move then.
-pub type OutsideWrench<const J: usize> =
-    Box<dyn Fn(Instant, &Kinematics<'_, f64, J>) -> PerBody<SpatialForce<f64>, J> + Send + Sync>;
 
 /// The wheels, CMGs and thrusters of the base, and how they stand at the start.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -54,9 +47,9 @@ pub struct Equipment {
     pub seed: u64,
 }
 
-/// What a world is made of.
+/// What a system is made of.
 #[derive(Debug, Clone)]
-pub struct WorldSetup<'a, const J: usize> {
+pub struct SystemSetup<'a, const J: usize> {
     /// The vehicle, with nothing in its grip.
     pub robot: &'a Robot<f64, J>,
     /// Limits of its joints, in the robot's order.
@@ -68,8 +61,6 @@ pub struct WorldSetup<'a, const J: usize> {
     pub equipment: Equipment,
     /// What becomes of the base's attitude.
     pub base: BaseAttitude,
-    /// How the motion is integrated.
-    pub stepper: Stepper,
     /// State at the start.
     pub start: State<f64, J>,
     /// Payloads held from the start: where, and what.

@@ -7,17 +7,16 @@ use branched::{J, moving, robot};
 use wrasse_dynamics::State;
 use wrasse_hardware::{ActuatorCommand, AttitudeActuator, SetPointMotion};
 use wrasse_spatial::{SpatialVelocity, Vec3, vec3};
-use wrasse_world::{
-    BaseAttitude, Drive, Equipment, Ledger, Saturation, Stepper, World, WorldSetup,
-};
+use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_world::{BaseAttitude, Drive, Equipment, Ledger, Saturation, Source, Stepper};
 
 /// Control period (s).
 const PERIOD: f64 = 0.01;
 /// 0.5 N·m about each axis, 1 N·m·s about each axis.
 const LIMITS: AttitudeActuator<f64> = AttitudeActuator { torque_limit: 0.5, momentum_limit: 1.0 };
 
-fn world(base: BaseAttitude, start: State<f64, J>) -> World<J> {
-    World::new(&WorldSetup {
+fn world(base: BaseAttitude, start: State<f64, J>) -> OneSystem<J> {
+    OneSystem::new(&OneSystemSetup {
         robot: &robot(),
         limits: &[],
         actuator: Some(LIMITS),
@@ -41,7 +40,7 @@ fn still() -> [Drive; J] {
 
 /// Fly for `time` (s) with the same torque commanded all the while; the books, and the largest
 /// momentum stored about any axis (N·m·s).
-fn fly(world: &mut World<J>, torque_B: Vec3<f64>, time: f64) -> (Ledger, f64) {
+fn fly(world: &mut OneSystem<J>, torque_B: Vec3<f64>, time: f64) -> (Ledger, f64) {
     let mut ledger = world.open_ledger();
     let mut fullest = 0.0_f64;
     let mut left = (time / PERIOD).round();
@@ -76,7 +75,7 @@ fn only_a_base_that_is_controlled_takes_a_torque() {
 #[test]
 fn an_actuator_without_limits_gives_what_is_asked() {
     let setup_robot = robot();
-    let mut world: World<J> = World::new(&WorldSetup {
+    let mut world: OneSystem<J> = OneSystem::new(&OneSystemSetup {
         robot: &setup_robot,
         limits: &[],
         actuator: None,
@@ -140,7 +139,7 @@ fn the_books_close_over_a_controlled_base_at_its_limits() {
     }
     assert!(seen.contains(&Saturation::ActuatorTorque(0)));
     assert!(seen.contains(&Saturation::ActuatorMomentum(1)));
-    let given = ledger.angular_from_actuator.norm();
+    let given = ledger.sources[Source::AttitudeActuator].angular.norm();
     assert!(given > 0.1, "the actuator gave {given} N·m·s: too little to prove anything");
     // Bounds: momentum is exact; work is a quadrature of order 4.
     for (i, bound) in [1e-14, 1e-14, 1e-8].into_iter().enumerate() {
@@ -156,7 +155,7 @@ fn the_books_close_over_a_controlled_base_at_its_limits() {
 fn the_torque_that_holds_the_base_adds_up_to_the_change_of_angular_momentum() {
     let start = State { V_NB_B: SpatialVelocity::zero(), ..moving() };
     let mut world = world(BaseAttitude::Held, start);
-    let (quat_NB, before) = (world.system().quat_NB, world.account().angular);
+    let (quat_NB, before) = (world.quat_NB(), world.account().angular);
     let mut sum = Vec3::zero();
     for _ in 0..100 {
         world.command(
@@ -171,7 +170,7 @@ fn the_torque_that_holds_the_base_adds_up_to_the_change_of_angular_momentum() {
         }
         sum += holding_torque(&world) * (PERIOD / 6.0);
         // Held to the bit, not to a tolerance.
-        assert_eq!(world.system().quat_NB, quat_NB);
+        assert_eq!(world.quat_NB(), quat_NB);
         assert_eq!(world.state().V_NB_B.angular, Vec3::zero());
     }
     let change = world.account().angular - before;
@@ -184,6 +183,6 @@ fn the_torque_that_holds_the_base_adds_up_to_the_change_of_angular_momentum() {
 }
 
 /// Torque (N·m, inertial axes) that holds the base now.
-fn holding_torque(world: &World<J>) -> Vec3<f64> {
+fn holding_torque(world: &OneSystem<J>) -> Vec3<f64> {
     world.state().X_NB.rotation * world.dynamics().force.base.torque
 }

@@ -7,15 +7,14 @@ use branched::{J, load, moving, robot};
 use wrasse_dynamics::{BodyId, PerBody, Robot};
 use wrasse_hardware::{ActuatorCommand, AttitudeActuator, JointLimits};
 use wrasse_spatial::{Pose, SpatialForce, SpatialVelocity, Vec3, vec3};
-use wrasse_world::{
-    BaseAttitude, Drive, Equipment, FreeBody, Instant, NonFinite, Stepper, World, WorldSetup,
-};
+use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_world::{BaseAttitude, Drive, Equipment, FreeBody, Instant, NonFinite, Stepper};
 
 const STEPPERS: [Stepper; 2] =
     [Stepper::Fixed { step: 0.01 }, Stepper::Adaptive { tolerance: 1e-9 }];
 
-fn setup(robot: &Robot<f64, J>, stepper: Stepper, base: BaseAttitude) -> WorldSetup<'_, J> {
-    WorldSetup {
+fn setup(robot: &Robot<f64, J>, stepper: Stepper, base: BaseAttitude) -> OneSystemSetup<'_, J> {
+    OneSystemSetup {
         robot,
         limits: &[],
         actuator: None,
@@ -27,12 +26,12 @@ fn setup(robot: &Robot<f64, J>, stepper: Stepper, base: BaseAttitude) -> WorldSe
     }
 }
 
-fn world(stepper: Stepper, base: BaseAttitude) -> World<J> {
-    World::new(&setup(&robot(), stepper, base))
+fn world(stepper: Stepper, base: BaseAttitude) -> OneSystem<J> {
+    OneSystem::new(&setup(&robot(), stepper, base))
 }
 
 /// One control period of 10 ms after another, until it breaks.
-fn broken(world: &mut World<J>, drives: &[Drive; J], torque_B: Vec3<f64>) -> NonFinite {
+fn broken(world: &mut OneSystem<J>, drives: &[Drive; J], torque_B: Vec3<f64>) -> NonFinite {
     for _ in 0..100 {
         world.command(drives, torque_B, &ActuatorCommand::default(), 0.01);
         if let Err(broken) = world.advance(0.01) {
@@ -45,7 +44,7 @@ fn broken(world: &mut World<J>, drives: &[Drive; J], torque_B: Vec3<f64>) -> Non
 const IDLE: [Drive; J] = [Drive::Effort(0.0); J];
 
 /// A world whose link 3 feels a torque of `bad` N·m from 0.155 s on.
-fn disturbed(stepper: Stepper, bad: f64) -> World<J> {
+fn disturbed(stepper: Stepper, bad: f64) -> OneSystem<J> {
     let mut world = world(stepper, BaseAttitude::Free);
     world.set_outside_wrench(
         Box::new(move |Instant { time: t, .. }, _| {
@@ -90,10 +89,10 @@ fn an_effort_that_is_not_a_number_is_reported_whatever_the_limits() {
         for limit in [None, Some(5.0)] {
             let limits = [JointLimits { effort: limit, ..JointLimits::default() }; J];
             let setup =
-                WorldSetup { limits: &limits, ..setup(&robot, stepper, BaseAttitude::Free) };
+                OneSystemSetup { limits: &limits, ..setup(&robot, stepper, BaseAttitude::Free) };
             let mut drives = IDLE;
             drives[2] = Drive::Effort(f64::NAN);
-            let broken = broken(&mut World::new(&setup), &drives, Vec3::zero());
+            let broken = broken(&mut OneSystem::new(&setup), &drives, Vec3::zero());
             assert_eq!(broken.quantity, "position or rate of joint 0");
         }
     }
@@ -105,8 +104,9 @@ fn an_actuator_torque_that_is_not_a_number_is_reported_whatever_the_limits() {
     let limits = AttitudeActuator { torque_limit: 1.0, momentum_limit: 1.0 };
     for stepper in STEPPERS {
         for actuator in [None, Some(limits)] {
-            let setup = WorldSetup { actuator, ..setup(&robot, stepper, BaseAttitude::Controlled) };
-            let broken = broken(&mut World::new(&setup), &IDLE, vec3(0.0, f64::NAN, 0.0));
+            let setup =
+                OneSystemSetup { actuator, ..setup(&robot, stepper, BaseAttitude::Controlled) };
+            let broken = broken(&mut OneSystem::new(&setup), &IDLE, vec3(0.0, f64::NAN, 0.0));
             assert_eq!(broken.quantity, "position or rate of joint 0");
         }
     }
@@ -119,7 +119,7 @@ fn a_base_without_joints_is_reported_by_its_attitude_and_a_held_one_by_its_momen
         for (base, quantity) in
             [(BaseAttitude::Free, "attitude of the base"), (BaseAttitude::Held, "angular momentum")]
         {
-            let mut world = World::new(&setup(&bare, stepper, base));
+            let mut world = OneSystem::new(&setup(&bare, stepper, base));
             world.set_outside_wrench(
                 Box::new(|_, _| {
                     let mut on = PerBody::filled(SpatialForce::zero());
@@ -140,11 +140,11 @@ fn a_free_body_that_is_nowhere_is_reported_by_its_number() {
         let spun = FreeBody { angular: vec3(f64::NAN, 0.0, 0.0), ..fine };
         let gone = FreeBody { linear: vec3(0.0, f64::INFINITY, 0.0), ..fine };
         for (bad, quantity) in
-            [(spun, "attitude of free body 1"), (gone, "centre of mass of free body 1")]
+            [(spun, "attitude of the base of system 2"), (gone, "attitude of the base of system 2")]
         {
             let mut world = world(stepper, BaseAttitude::Free);
-            world.add_free_body(fine);
-            world.add_free_body(bad);
+            world.add_body(&fine);
+            world.add_body(&bad);
             let broken = broken(&mut world, &IDLE, Vec3::zero());
             assert_eq!((broken.quantity.as_str(), broken.time), (quantity, 0.01));
         }

@@ -8,9 +8,8 @@ use equipped::{block, cmg, turning_block};
 use wrasse_dynamics::{BodyId, Joint, JointKind, MassProperties, Robot, State};
 use wrasse_hardware::{ActuatorCommand, CMGS, ControlMomentGyro, List, SetPoint, SetPointMotion};
 use wrasse_spatial::{Mat3, Pose, SpatialVelocity, Sym3, Vec3, vec3};
-use wrasse_world::{
-    BaseAttitude, Drive, Equipment, Failure, Saturation, Stepper, World, WorldSetup,
-};
+use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_world::{BaseAttitude, Drive, Equipment, Failure, Saturation, Stepper};
 
 const PERIOD: f64 = 0.01;
 
@@ -31,7 +30,7 @@ fn upright() -> ControlMomentGyro<f64> {
     cmg(vec3(0.0, 0.0, 1.0), vec3(1.0, 0.0, 0.0))
 }
 
-fn run(world: &mut World<1>, periods: usize, rate: &[f64]) -> Vec<Saturation> {
+fn run(world: &mut OneSystem<1>, periods: usize, rate: &[f64]) -> Vec<Saturation> {
     let mut cut = Vec::new();
     for _ in 0..periods {
         cut.extend(world.command(&[], Vec3::zero(), &told(rate), PERIOD));
@@ -123,7 +122,7 @@ fn a_stuck_gimbal_stands_still_at_once_and_its_momentum_is_the_bases() {
     assert_eq!(world.gimbal_motor_torque()[0], 0.0);
     world.fail(Failure::Gimbal(CMGS));
     world.update_ledger(&mut ledger);
-    let [angular, _, energy] = ledger.rests();
+    let [angular, _, energy] = ledger.residuals();
     assert!(angular < 1e-13 && energy < 1e-10, "{angular:e} {energy:e}");
 }
 
@@ -153,8 +152,12 @@ fn bus() -> MassProperties<f64> {
     MassProperties::from_central(400.0, vec3(0.1, 0.0, -0.1), Sym3::diagonal(900.0, 1100.0, 1200.0))
 }
 
-fn flying<const J: usize>(robot: &Robot<f64, J>, v: [f64; J], equipment: &Equipment) -> World<J> {
-    World::new(&WorldSetup {
+fn flying<const J: usize>(
+    robot: &Robot<f64, J>,
+    v: [f64; J],
+    equipment: &Equipment,
+) -> OneSystem<J> {
+    OneSystem::new(&OneSystemSetup {
         robot,
         limits: &[],
         actuator: None,
@@ -171,7 +174,7 @@ fn flying<const J: usize>(robot: &Robot<f64, J>, v: [f64; J], equipment: &Equipm
 }
 
 /// Gimbals as links, rotors as links on them.
-fn as_links(odd: f64) -> World<4> {
+fn as_links(odd: f64) -> OneSystem<4> {
     let mut links = vec![];
     for mount in mounts() {
         // The rotor alone is round; the gimbal has the rest.
@@ -193,7 +196,7 @@ fn as_links(odd: f64) -> World<4> {
 }
 
 /// The CMGs as equipment; their matter is the bus's.
-fn as_equipment(odd: f64) -> World<1> {
+fn as_equipment(odd: f64) -> OneSystem<1> {
     let mut bus = bus();
     let mut list = vec![];
     for mount in mounts() {
@@ -216,7 +219,7 @@ fn as_equipment(odd: f64) -> World<1> {
 /// to that rate; and the torques of the gimbal motors, relative to the larger (–).
 fn apart(odd: f64) -> (f64, f64) {
     let (mut links, mut equipment) = (as_links(odd), as_equipment(odd));
-    let seen = |world: &World<1>| {
+    let seen = |world: &OneSystem<1>| {
         let readings = world.actuator_readings();
         core::array::from_fn::<_, 2, _>(|i| SetPoint {
             position: readings.gimbal_angle[i],

@@ -7,14 +7,15 @@ use atlas_class::{J, coasting, cube, tool, unladen};
 use wrasse_dynamics::{Frame, MassProperties};
 use wrasse_hardware::ActuatorCommand;
 use wrasse_spatial::Vec3;
-use wrasse_world::{BaseAttitude, Drive, Equipment, Stepper, World, WorldSetup};
+use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_world::{BaseAttitude, Drive, Equipment, Stepper};
 
 /// Drift over the coast: angular and linear momentum relative to the sum of the bodies' absolute
 /// momenta, centre of mass relative to the distance gone, energy relative to itself.
 fn drift(stepper: Stepper) -> [f64; 4] {
     let held: [(Frame<f64>, MassProperties<f64>); 1] = [(tool(), cube(500.0))];
     let robot = unladen();
-    let mut world: World<J> = World::new(&WorldSetup {
+    let mut world: OneSystem<J> = OneSystem::new(&OneSystemSetup {
         robot: &robot,
         limits: &[],
         actuator: None,
@@ -44,7 +45,7 @@ fn drift(stepper: Stepper) -> [f64; 4] {
         let off = ledger.now.centre_of_mass - ledger.start.centre_of_mass - gone;
         worst_cm = worst_cm.max(off.norm() / gone.norm());
         worst_energy = worst_energy.max((ledger.now.energy / ledger.start.energy - 1.0).abs());
-        let [angular, linear, _] = ledger.rests();
+        let [angular, linear, _] = ledger.residuals();
         worst[0] = worst[0].max(angular / ledger.now.angular_scale);
         worst[1] = worst[1].max(linear / ledger.now.linear_scale);
     }

@@ -9,9 +9,8 @@ use branched::{J, moving};
 use wrasse_dynamics::{BodyId, PerBody, State};
 use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::{Quat, SpatialForce, Vec3, vec3};
-use wrasse_world::{
-    Account, BaseAttitude, Drive, Equipment, Instant, OutsideWrench, Stepper, World, WorldSetup,
-};
+use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_world::{Account, BaseAttitude, Course, Drive, Equipment, Instant, Stepper};
 
 /// What a run ends with: where, how fast, and the momentum and energy summed over the bodies.
 struct End<const J: usize> {
@@ -22,11 +21,11 @@ struct End<const J: usize> {
 }
 
 /// One control period of `span` (s), integrated in the world's own steps.
-fn end<const J: usize>(mut world: World<J>, drives: &[Drive; J], span: f64) -> End<J> {
+fn end<const J: usize>(mut world: OneSystem<J>, drives: &[Drive; J], span: f64) -> End<J> {
     world.command(drives, Vec3::zero(), &ActuatorCommand::default(), span);
     world.advance(span).expect("stays finite");
-    let s = *world.system();
-    End { quat_NB: s.quat_NB, q: s.q, v: s.v, account: world.account() }
+    let s = world.state();
+    End { quat_NB: world.quat_NB(), q: s.q, v: s.v, account: world.account() }
 }
 
 /// Errors of attitude (rad), joint positions, joint rates, energy (J), linear (N·s) and angular
@@ -61,7 +60,7 @@ fn is_of_order_4(quantity: &str, slopes: [f64; 2]) {
 }
 
 /// Wrenches from outside on three bodies, each with its own rhythm.
-fn pushed_and_twisted() -> OutsideWrench<J> {
+fn pushed_and_twisted() -> Course<J> {
     Box::new(|Instant { time: t, .. }, _| {
         let mut on = PerBody::filled(SpatialForce::zero());
         on[BodyId::Base] = SpatialForce::new(
@@ -153,7 +152,7 @@ fn the_laden_servicer_moves_with_order_4_from_its_coast() {
         _ => follow(start.q[j], start.v[j], 8.0),
     });
     let run = |h| {
-        let world = World::new(&WorldSetup {
+        let world = OneSystem::new(&OneSystemSetup {
             robot: &atlas_class::unladen(),
             limits: &[],
             actuator: None,
@@ -184,7 +183,7 @@ fn what_a_held_base_leaves_unexplained_falls_with_order_4() {
         world.command(&mixed(), Vec3::zero(), &ActuatorCommand::default(), SPAN);
         world.advance(SPAN).expect("stays finite");
         world.update_ledger(&mut ledger);
-        ledger.rests()
+        ledger.residuals()
     };
     let found = [4.0, 2.0, 1.0].map(|k| rests(k * FINEST));
     let slopes = |i: usize| [0, 1].map(|k: usize| (found[k][i] / found[k + 1][i]).log2());
@@ -200,7 +199,7 @@ fn the_error_of_the_adaptive_stepper_follows_its_tolerance() {
     let reference =
         end(branched::world(moving(), BaseAttitude::Free, FINEST / 8.0), &EFFORTS, SPAN);
     let errors_at = |tolerance: f64| {
-        let world = World::new(&WorldSetup {
+        let world = OneSystem::new(&OneSystemSetup {
             robot: &branched::robot(),
             limits: &[],
             actuator: None,
@@ -230,7 +229,7 @@ fn the_error_of_the_adaptive_stepper_follows_its_tolerance() {
 #[test]
 fn a_step_that_meets_a_sudden_push_is_taken_back() {
     let flown = |stepper| {
-        let mut world = World::new(&WorldSetup {
+        let mut world = OneSystem::new(&OneSystemSetup {
             robot: &branched::robot(),
             limits: &[],
             actuator: None,

@@ -4,7 +4,8 @@
 use wrasse_dynamics::{MassProperties, PerBody, Robot, State};
 use wrasse_hardware::ActuatorCommand;
 use wrasse_spatial::{Mat3, Pose, Quat, SpatialForce, SpatialVelocity, Sym3, Vec3, vec3};
-use wrasse_world::{BaseAttitude, Equipment, FreeBody, Instant, Stepper, World, WorldSetup};
+use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_world::{BaseAttitude, Equipment, FreeBody, Instant, Source, Stepper};
 
 /// Where the bodies are at the start: in no special place.
 fn X_NT() -> Pose<f64> {
@@ -33,7 +34,7 @@ fn both(matter: MassProperties<f64>, V: SpatialVelocity<f64>, t: f64, h: f64) ->
         done += 1.0;
     }
     let robot: Robot<f64, 0> = Robot::new(matter, &[]).expect("no joints to refuse");
-    let mut world = World::new(&WorldSetup {
+    let mut world = OneSystem::new(&OneSystemSetup {
         robot: &robot,
         limits: &[],
         actuator: None,
@@ -135,7 +136,7 @@ fn a_body_spun_about_its_intermediate_axis_turns_over_and_comes_back_in_the_elli
 /// A vehicle at rest with a body that tumbles beside it, flown in control periods of `period` (s).
 fn beside_a_vehicle(body: FreeBody, stepper: Stepper, period: f64, count: usize) -> FreeBody {
     let robot: Robot<f64, 0> = Robot::new(body.matter, &[]).expect("no joints to refuse");
-    let mut world = World::new(&WorldSetup {
+    let mut world = OneSystem::new(&OneSystemSetup {
         robot: &robot,
         limits: &[],
         actuator: None,
@@ -145,7 +146,7 @@ fn beside_a_vehicle(body: FreeBody, stepper: Stepper, period: f64, count: usize)
         start: State::default(),
         held: &[],
     });
-    world.add_free_body(body);
+    world.add_body(&body);
     for _ in 0..count {
         world.command(&[], Vec3::zero(), &ActuatorCommand::default(), period);
         world.advance(period).expect("stays finite");
@@ -186,7 +187,7 @@ fn the_books_close_over_a_vehicle_that_is_pushed_beside_a_free_body() {
     let matter = body(Sym3::diagonal(30.0, 50.0, 70.0));
     let robot: Robot<f64, 0> = Robot::new(matter, &[]).expect("no joints to refuse");
     for stepper in [Stepper::Fixed { step: 0.05 }, Stepper::Adaptive { tolerance: 1e-9 }] {
-        let mut world = World::new(&WorldSetup {
+        let mut world = OneSystem::new(&OneSystemSetup {
             robot: &robot,
             limits: &[],
             actuator: None,
@@ -199,7 +200,7 @@ fn the_books_close_over_a_vehicle_that_is_pushed_beside_a_free_body() {
             },
             held: &[],
         });
-        world.add_free_body(tumbling());
+        world.add_body(&tumbling());
         world.set_outside_wrench(
             Box::new(|Instant { time: t, .. }, _| {
                 let mut on = PerBody::filled(SpatialForce::zero());
@@ -217,7 +218,11 @@ fn the_books_close_over_a_vehicle_that_is_pushed_beside_a_free_body() {
             world.update_ledger(&mut ledger);
         }
         let [angular, linear, energy] = core::array::from_fn(|i| ledger.worst[i] / ledger.scale[i]);
-        assert!(ledger.angular_from_outside.norm() > 10.0, "{:?}", ledger.angular_from_outside);
+        assert!(
+            ledger.sources[Source::Applied].angular.norm() > 10.0,
+            "{:?}",
+            ledger.sources[Source::Applied].angular
+        );
         assert!(angular < 1e-9, "angular rest {angular:e} of the scale");
         assert!(linear < 1e-9, "linear rest {linear:e} of the scale");
         assert!(energy < 1e-6, "energy rest {energy:e} of the scale");

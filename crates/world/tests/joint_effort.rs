@@ -6,13 +6,14 @@ mod branched;
 use branched::{J, moving, robot};
 use wrasse_hardware::{ActuatorCommand, JointLimits, SetPointMotion};
 use wrasse_spatial::Vec3;
-use wrasse_world::{BaseAttitude, Drive, Equipment, Saturation, Stepper, World, WorldSetup};
+use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_world::{BaseAttitude, Drive, Equipment, Saturation, Stepper};
 
 /// Joints 0 and 1 give at most 2 and 0.5 (N·m, N); the others are not limited.
-fn world() -> World<J> {
+fn world() -> OneSystem<J> {
     let limits =
         [2.0, 0.5].map(|effort| JointLimits { effort: Some(effort), ..JointLimits::default() });
-    World::new(&WorldSetup {
+    OneSystem::new(&OneSystemSetup {
         robot: &robot(),
         limits: &limits,
         actuator: None,

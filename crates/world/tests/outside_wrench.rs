@@ -3,14 +3,15 @@
 use wrasse_dynamics::{BodyId, Frame, MassProperties, PerBody, Robot, State};
 use wrasse_hardware::ActuatorCommand;
 use wrasse_spatial::{Pose, SpatialForce, Sym3, Vec3, vec3};
-use wrasse_world::{BaseAttitude, Equipment, Instant, Stepper, World, WorldSetup};
+use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_world::{BaseAttitude, Equipment, Instant, Stepper};
 
 /// 10 N from 0.203 s for 4 ms, and again from 0.5 s to 0.6 s where steps end anyway.
-fn pushed(stepper: Stepper, told: bool) -> (World<1>, wrasse_world::Ledger) {
+fn pushed(stepper: Stepper, told: bool) -> (OneSystem<1>, wrasse_world::Ledger) {
     let base =
         MassProperties::from_central(50.0, vec3(0.1, 0.0, 0.0), Sym3::diagonal(4.0, 5.0, 6.0));
     let robot: Robot<f64, 1> = Robot::new(base, &[]).expect("a base alone");
-    let mut world = World::new(&WorldSetup {
+    let mut world = OneSystem::new(&OneSystemSetup {
         robot: &robot,
         limits: &[],
         actuator: None,
@@ -47,7 +48,7 @@ fn pushed(stepper: Stepper, told: bool) -> (World<1>, wrasse_world::Ledger) {
 fn a_push_that_begins_and_ends_within_steps_gives_its_whole_impulse() {
     for stepper in [Stepper::Fixed { step: 0.005 }, Stepper::Adaptive { tolerance: 1e-9 }] {
         let (world, ledger) = pushed(stepper, true);
-        let given = world.system().linear.norm();
+        let given = world.momentum(world.id).0.norm();
         assert!((given - 1.04).abs() < 1e-7, "{given} N·s");
         let [angular, linear, energy] = ledger.worst;
         assert!(angular < 1e-14 && linear < 1e-14, "{angular:e} {linear:e}");
@@ -61,6 +62,6 @@ fn a_push_that_begins_and_ends_within_steps_gives_its_whole_impulse() {
 #[test]
 fn the_bends_are_what_makes_it_right() {
     let (world, _) = pushed(Stepper::Fixed { step: 0.005 }, false);
-    let given = world.system().linear.norm();
+    let given = world.momentum(world.id).0.norm();
     assert!((given - 1.04).abs() > 5e-3, "{given} N·s");
 }

@@ -8,13 +8,14 @@ use atlas_class::{J, SIDEWAYS_300MM_DEG, cube, tool, unladen};
 use wrasse_dynamics::{State, kinematics, mass_matrix, reaction_null_space};
 use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::{Pose, Quat, Vec3};
-use wrasse_world::{BaseAttitude, Drive, Equipment, Stepper, World, WorldSetup};
+use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_world::{BaseAttitude, Drive, Equipment, Stepper};
 
 /// A floating servicer with 500 kg, at rest.
-fn at_rest() -> World<J> {
+fn at_rest() -> OneSystem<J> {
     let robot = unladen();
     let start = State { q: SIDEWAYS_300MM_DEG.map(f64::to_radians), ..State::default() };
-    World::new(&WorldSetup {
+    OneSystem::new(&OneSystemSetup {
         robot: &robot,
         limits: &[],
         actuator: None,
@@ -27,7 +28,7 @@ fn at_rest() -> World<J> {
 }
 
 /// Lead the joints through set-points, `period` (s) apart.
-fn lead(world: &mut World<J>, period: f64, set_points: &[[SetPoint<f64>; J]]) {
+fn lead(world: &mut OneSystem<J>, period: f64, set_points: &[[SetPoint<f64>; J]]) {
     for pair in set_points.windows(2) {
         let drives: [Drive; J] = std::array::from_fn(|j| {
             Drive::Follow(SetPointMotion::between(pair[0][j], pair[1][j], period))
@@ -38,7 +39,7 @@ fn lead(world: &mut World<J>, period: f64, set_points: &[[SetPoint<f64>; J]]) {
 }
 
 /// Turn of the base since the start (rad).
-fn turned(world: &World<J>) -> f64 {
+fn turned(world: &OneSystem<J>) -> f64 {
     Quat::from_matrix(&world.state().X_NB.rotation).log().norm()
 }
 
@@ -128,7 +129,7 @@ fn a_motion_in_the_reaction_null_space_leaves_the_attitude_alone() {
         let k4 = rates(&moved(&q, &k3, h));
         q = std::array::from_fn(|j| q[j] + h / 6.0 * (v[j] + 2.0 * k2[j] + 2.0 * k3[j] + k4[j]));
     }
-    let tip = |world: &World<J>| world.pose(&tool()).translation;
+    let tip = |world: &OneSystem<J>| world.pose(&tool()).translation;
     let start = tip(&world);
     let X_start: Pose<f64> = world.state().X_NB;
     lead(&mut world, h, &set_points);

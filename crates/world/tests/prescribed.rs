@@ -8,7 +8,8 @@ use branched::{J, moving};
 use wrasse_dynamics::{Dynamics, Generalized, PerBody, State, inverse_dynamics, kinematics};
 use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::{SpatialForce, SpatialVelocity, Vec3};
-use wrasse_world::{BaseAttitude, Drive, World};
+use wrasse_testing::OneSystem;
+use wrasse_world::{BaseAttitude, Drive, Source};
 
 /// Control period (s).
 const PERIOD: f64 = 0.01;
@@ -57,7 +58,10 @@ fn joints_that_follow_are_where_their_set_points_are() {
             for j in 0..J {
                 let at_end = motion(j, k).at(PERIOD);
                 assert_eq!((state.q[j], state.v[j]), (at_end.position, at_end.rate));
-                assert_eq!((world.system().q[j], world.system().v[j]), (state.q[j], state.v[j]));
+                assert_eq!(
+                    (variables(&world).0[j], variables(&world).1[j]),
+                    (state.q[j], state.v[j])
+                );
                 let off = (state.q[j] - set_point(j, k + 1).position).abs();
                 assert!(off < 1e-15, "{off:e}");
             }
@@ -78,9 +82,14 @@ fn the_last_step_of_a_period_ends_where_the_period_does() {
     );
     world.advance(1.0).expect("stays finite");
     for j in 0..J {
-        assert_eq!(world.system().q[j], whole(j).at(1.0).position);
-        assert_eq!(world.system().v[j], whole(j).at(1.0).rate);
+        assert_eq!(variables(&world).0[j], whole(j).at(1.0).position);
+        assert_eq!(variables(&world).1[j], whole(j).at(1.0).rate);
     }
+}
+
+/// Positions and rates of the joints as they are integrated.
+fn variables(world: &OneSystem<J>) -> (&[f64], &[f64]) {
+    world.variables(world.id)[3..].split_at(J)
 }
 
 /// Acceleration of the base that the flown motion shows: its twist at five instants `h` (s) apart,
@@ -142,7 +151,7 @@ fn followed_and_driven(base: BaseAttitude, period: f64) -> f64 {
         })
     };
     let new = || branched::world(start(base), base, 0.5 * period);
-    let (mut following, mut driven): (World<J>, World<J>) = (new(), new());
+    let (mut following, mut driven): (OneSystem<J>, OneSystem<J>) = (new(), new());
     let mut k = 0.0;
     while k < count {
         following.command(&drive_to(k), Vec3::zero(), &ActuatorCommand::default(), period);
@@ -183,7 +192,9 @@ fn the_work_booked_for_the_drives_is_the_energy_gained() {
             world.advance(PERIOD).expect("stays finite");
             world.update_ledger(&mut ledger);
         }
-        let [joints, actuator, outside] = ledger.work.to_array();
+        let [joints, actuator, outside] =
+            [Source::JointDrives, Source::AttitudeActuator, Source::Applied]
+                .map(|source| ledger.sources[source].work);
         assert_eq!((actuator, outside), (0.0, 0.0));
         assert!(joints.abs() > 0.1, "the drives did {joints} J only");
         let off = (ledger.now.energy - ledger.start.energy - joints).abs() / ledger.scale[2];

@@ -7,7 +7,8 @@ use branched::{J, moving};
 use wrasse_dynamics::{BodyId, PerBody, State};
 use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::{SpatialForce, Vec3, vec3};
-use wrasse_world::{BaseAttitude, Drive, Equipment, Instant, Ledger, Stepper, World, WorldSetup};
+use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_world::{BaseAttitude, Drive, Equipment, Instant, Ledger, Stepper};
 
 /// Length of a control period, and of the steps in it (s): powers of two, so that parts of the
 /// period add up to it exactly.
@@ -22,8 +23,8 @@ fn follow(j: usize) -> Drive {
 
 /// A world in which everything happens: joints that follow and joints driven by force, a wrench from
 /// outside that changes with time.
-fn world(stepper: Stepper) -> World<J> {
-    let mut world = World::new(&WorldSetup {
+fn world(stepper: Stepper) -> OneSystem<J> {
+    let mut world = OneSystem::new(&OneSystemSetup {
         robot: &branched::robot(),
         limits: &[],
         actuator: None,
@@ -77,7 +78,7 @@ fn the_same_run_gives_the_same_bits() {
                 world.advance(0.01).expect("stays finite");
                 world.update_ledger(&mut ledger);
             }
-            (*world.system(), ledger)
+            (world.bits(), ledger)
         };
         assert_eq!(many(), many());
     }

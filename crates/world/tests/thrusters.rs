@@ -7,7 +7,8 @@ use equipped::{block, thruster, turning_block};
 use wrasse_dynamics::{Robot, State};
 use wrasse_hardware::{ActuatorCommand, List, STANDARD_GRAVITY, Tank, Thruster};
 use wrasse_spatial::{Sym3, Vec3, vec3};
-use wrasse_world::{Equipment, Failure, Saturation, Stepper, World, WorldSetup};
+use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_world::{Booking, Equipment, Failure, Saturation, Source, Stepper};
 
 const PERIOD: f64 = 0.1;
 
@@ -24,7 +25,7 @@ fn thrusters(list: &[Thruster<f64>], tank: Option<Tank<f64>>) -> Equipment {
     equipment
 }
 
-fn run(world: &mut World<1>, on: &[f64]) -> Vec<Saturation> {
+fn run(world: &mut OneSystem<1>, on: &[f64]) -> Vec<Saturation> {
     let cut = world.command(&[], Vec3::zero(), &told(on), PERIOD);
     world.advance(PERIOD).expect("stays finite");
     cut
@@ -55,28 +56,29 @@ fn near(what: &str, found: f64, expected: f64, within: f64) {
     assert!(off < within, "{what}: {found} instead of {expected}, off by {off:e}");
 }
 
-/// Force 4 N, rise 6 ms, fall 9 ms. The force is linear between its bends and the turn is about one
-/// axis: only rounding is left. Measured 2e-16.
+/// Force 4 N, rise 6 ms, fall 9 ms. The force is linear between its bends and the turn is about one axis;
+/// momentum is counted about the origin of N, from which the base goes away meanwhile: a quadrature of
+/// fourth order over steps of 10 ms. Measured 1.2e-11; about the centre of mass it would be rounding.
 #[test]
 fn the_impulse_of_a_pulse_is_the_area_of_its_trapezoid() {
-    near("pulse", impulse(aside(), &[0.05]), 4.0 * (0.05 - 0.003 + 0.0045), 1e-13);
+    near("pulse", impulse(aside(), &[0.05]), 4.0 * (0.05 - 0.003 + 0.0045), 1e-10);
     // Shut before the force is full: a triangle, its falling side as steep as ever.
     let quick = Thruster { minimum_on_time: 0.0, ..aside() };
     let share: f64 = 0.003 / 0.006;
-    near("triangle", impulse(quick, &[0.003]), 4.0 * share * (0.0015 + share * 0.0045), 1e-13);
+    near("triangle", impulse(quick, &[0.003]), 4.0 * share * (0.0015 + share * 0.0045), 1e-10);
     // The fall reaches into the next period.
-    near("tail", impulse(aside(), &[0.097, 0.0]), 4.0 * (0.097 - 0.003 + 0.0045), 1e-13);
+    near("tail", impulse(aside(), &[0.097, 0.0]), 4.0 * (0.097 - 0.003 + 0.0045), 1e-10);
     let sharp = Thruster { rise_time: 0.0, fall_time: 0.0, ..aside() };
-    near("sharp", impulse(sharp, &[0.05, 0.0, 0.03]), 4.0 * 0.08, 1e-13);
+    near("sharp", impulse(sharp, &[0.05, 0.0, 0.03]), 4.0 * 0.08, 1e-10);
 }
 
 #[test]
 fn a_thruster_that_is_open_goes_on_without_a_new_rise() {
     let expected = 4.0 * (0.1 + 0.1 + 0.05 - 0.003 + 0.0045);
-    near("through", impulse(aside(), &[0.1, 0.1, 0.05]), expected, 1e-13);
-    near("anew", impulse(aside(), &[0.05, 0.05]), 2.0 * 4.0 * (0.05 - 0.003 + 0.0045), 1e-13);
+    near("through", impulse(aside(), &[0.1, 0.1, 0.05]), expected, 1e-10);
+    near("anew", impulse(aside(), &[0.05, 0.05]), 2.0 * 4.0 * (0.05 - 0.003 + 0.0045), 1e-10);
     // Told to shut at once after a whole period: only its fall is left.
-    near("fall", impulse(aside(), &[0.1, 0.0]), 4.0 * (0.1 - 0.003 + 0.0045), 1e-13);
+    near("fall", impulse(aside(), &[0.1, 0.0]), 4.0 * (0.1 - 0.003 + 0.0045), 1e-10);
 }
 
 #[test]
@@ -87,12 +89,13 @@ fn push_and_turn_are_force_and_lever() {
     run(&mut world, &[0.05]);
     world.update_ledger(&mut ledger);
     let pulse = 4.0 * 0.0515;
-    near("angular", ledger.angular_from_thrusters.z, 0.7 * pulse, 1e-13);
+    // About the origin of N: the base goes 0.1 mm aside meanwhile. Measured 1.6e-8.
+    near("angular", ledger.sources[Source::Thrusters].angular.z, 0.7 * pulse, 1e-7);
     // The base turns by a milliradian meanwhile: the sine of it goes to -x.
-    let linear = ledger.linear_from_thrusters;
+    let linear = ledger.sources[Source::Thrusters].linear;
     near("linear", linear.y, pulse, 1e-5);
     assert!(linear.x < 0.0 && linear.x > -1e-2 * pulse);
-    assert_eq!(ledger.linear_from_outside, Vec3::zero());
+    assert_eq!(ledger.sources[Source::Applied], Booking::default());
 }
 
 /// The force turns with the base and bends where no step would end: order 4 all the same. Measured
@@ -150,7 +153,8 @@ fn a_pulse_that_is_too_short_is_not_given_and_said() {
 #[test]
 fn the_noise_of_pulses_has_its_deviation_and_comes_from_the_seed() {
     let noisy = Thruster { impulse_noise: 0.05, ..aside() };
-    let robot = slab();
+    // So heavy that 2000 pulses hardly turn it: each gain is read from a gain of spin.
+    let robot = block(50e3, Sym3::diagonal(4e3, 5e3, 6e3));
     let pulses = |seed: u64, of: usize| {
         let mut list = [aside(), noisy];
         list[0].impulse_noise = if of == 0 { 0.3 } else { 0.0 };
@@ -162,7 +166,7 @@ fn the_noise_of_pulses_has_its_deviation_and_comes_from_the_seed() {
             let other = if of == 0 && i % 3 == 0 { 0.05 } else { 0.0 };
             run(&mut world, &[other, 0.05]);
             let spin = world.state().V_NB_B.angular.z;
-            gains.push((spin - before) * 6.0 / 0.7 / (4.0 * 0.0515));
+            gains.push((spin - before) * 6e3 / 0.7 / (4.0 * 0.0515));
             before = spin;
         }
         gains
@@ -222,11 +226,10 @@ fn an_empty_tank_gives_nothing_and_says_so_once() {
     assert_eq!(run(&mut world, &[0.1, 0.1]), []);
     assert_eq!(world.actuator_readings().propellant, 0.0);
     assert_eq!(run(&mut world, &[0.1, 0.1]), [Saturation::TankEmpty]);
-    let before = *world.system();
+    let before = world.momentum(world.id);
     assert_eq!(run(&mut world, &[0.1, 0.03]), [Saturation::TankEmpty]);
     assert_eq!(run(&mut world, &[0.0, 0.0]), []);
-    let after = world.system();
-    assert_eq!((after.angular, after.linear), (before.angular, before.linear));
+    assert_eq!(world.momentum(world.id), before);
     assert_eq!(world.robot().mass(), 50.0);
 }
 
@@ -241,14 +244,14 @@ fn a_valve_that_is_jammed_does_not_move() {
     world.fail(Failure::ThrusterOpen(1));
     run(&mut world, &[0.1, 0.0]);
     run(&mut world, &[0.1, 0.0]);
-    near("open", world.state().V_NB_B.angular.z * 6.0 / 0.7, 4.0 * (0.2 - 0.003), 1e-13);
+    near("open", world.state().V_NB_B.angular.z * 6.0 / 0.7, 4.0 * (0.2 - 0.003), 1e-10);
 }
 
 /// An adaptive stepper sees the same. Measured 2e-16 off.
 #[test]
 fn error_control_meets_the_bends_too() {
     let robot = slab();
-    let mut world = World::new(&WorldSetup {
+    let mut world = OneSystem::new(&OneSystemSetup {
         robot: &robot,
         limits: &[],
         actuator: None,

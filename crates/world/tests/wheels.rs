@@ -8,9 +8,8 @@ use equipped::{block, turning_block, wheel};
 use wrasse_dynamics::{BodyId, Joint, JointKind, MassProperties, Robot, State};
 use wrasse_hardware::{ActuatorCommand, List, ReactionWheel, WHEELS};
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Sym3, Vec3, vec3};
-use wrasse_world::{
-    BaseAttitude, Drive, Equipment, Failure, Saturation, Stepper, World, WorldSetup,
-};
+use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_world::{BaseAttitude, Drive, Equipment, Failure, Saturation, Stepper};
 
 const PERIOD: f64 = 0.01;
 
@@ -29,7 +28,7 @@ fn wheels(list: &[ReactionWheel<f64>], speed: &[f64]) -> Equipment {
 }
 
 /// Periods in which the wheels are told these torques; all that was cut.
-fn run(world: &mut World<1>, periods: usize, torque: &[f64]) -> Vec<Saturation> {
+fn run(world: &mut OneSystem<1>, periods: usize, torque: &[f64]) -> Vec<Saturation> {
     let mut cut = Vec::new();
     for _ in 0..periods {
         cut.extend(world.command(&[], Vec3::zero(), &told(torque), PERIOD));
@@ -38,7 +37,7 @@ fn run(world: &mut World<1>, periods: usize, torque: &[f64]) -> Vec<Saturation> 
     cut
 }
 
-fn speed(world: &World<1>) -> f64 {
+fn speed(world: &OneSystem<1>) -> f64 {
     world.actuator_readings().wheel_speed[0]
 }
 
@@ -83,9 +82,9 @@ fn flying<const J: usize>(
     v: [f64; J],
     equipment: &Equipment,
     step: f64,
-) -> World<J> {
+) -> OneSystem<J> {
     let V_NB_B = SpatialVelocity::from_array([0.2, -0.3, 0.15, 0.1, 0.0, -0.2]);
-    World::new(&WorldSetup {
+    OneSystem::new(&OneSystemSetup {
         robot,
         limits: &[],
         actuator: None,
@@ -98,7 +97,7 @@ fn flying<const J: usize>(
 }
 
 /// The rotors as links that motors turn.
-fn as_links(step: f64) -> World<4> {
+fn as_links(step: f64) -> OneSystem<4> {
     let (base, arm) = base_and_arm();
     let z = vec3(0.0, 0.0, 1.0);
     let mut links = vec![arm];
@@ -116,7 +115,7 @@ fn as_links(step: f64) -> World<4> {
 }
 
 /// The rotors as wheels; their matter is the base's.
-fn as_wheels(step: f64) -> World<1> {
+fn as_wheels(step: f64) -> OneSystem<1> {
     let (mut base, arm) = base_and_arm();
     let mut list = vec![];
     for (X, across, about, mass) in rotors() {
@@ -222,7 +221,7 @@ fn torque_is_rounded_then_cut_and_what_is_cut_is_said() {
     ] {
         let mut world = turning_block(&robot, Vec3::zero(), &wheels(&[coarse], &[]), 1e-2);
         assert_eq!(run(&mut world, 1, &[wanted]), cut);
-        let off = (world.system().wheel_momentum[0] / (given * PERIOD) - 1.0).abs();
+        let off = (world.effector_variables(world.id, 0)[0] / (given * PERIOD) - 1.0).abs();
         assert!(off < 1e-14, "{wanted}: off by {off:e}");
     }
 }
@@ -250,6 +249,6 @@ fn as_many_wheels_as_there_can_be_and_one_that_is_not_there() {
     let mut world = turning_block(&robot, Vec3::zero(), &equipment, 1e-2);
     world.fail(Failure::Wheel(WHEELS));
     run(&mut world, 10, &[0.1; WHEELS]);
-    let all = world.system().wheel_momentum;
+    let all = world.effector_variables(world.id, 0);
     assert!(all.iter().all(|h| (h / 0.01 - 1.0).abs() < 1e-13), "{all:?}");
 }

@@ -11,10 +11,9 @@ use wrasse_dynamics::{
 };
 use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::{SpatialForce, Sym3, Vec3};
+use wrasse_testing::{OneSystem, OneSystemSetup};
 use wrasse_vehicle::{JOINTS, Vehicle};
-use wrasse_world::{
-    BaseAttitude, Drive, Equipment, FreeBody, GripOffset, Stepper, World, WorldSetup,
-};
+use wrasse_world::{BaseAttitude, Drive, Equipment, FreeBody, GripOffset, Stepper};
 
 /// States may be off by this where a motion was integrated.
 const MOTION: Bound = Bound { relative: 1e-8, absolute: 1e-12 };
@@ -139,8 +138,8 @@ impl<'a> Scene<'a> {
         base: BaseAttitude,
         start: &State<f64, JOINTS>,
         held: &[(Frame<f64>, MassProperties<f64>)],
-    ) -> World<JOINTS> {
-        World::new(&WorldSetup {
+    ) -> OneSystem<JOINTS> {
+        OneSystem::new(&OneSystemSetup {
             robot: &self.vehicle.robot,
             limits: &[],
             actuator: None,
@@ -153,7 +152,7 @@ impl<'a> Scene<'a> {
     }
 
     /// The world just after the capture, and the change of energy (J).
-    fn captured(&self, mode: Mode) -> (World<JOINTS>, f64) {
+    fn captured(&self, mode: Mode) -> (OneSystem<JOINTS>, f64) {
         let start = self.motion.state;
         let mut world = self.world(mode.base, &start, &[]);
         if mode.joints_keep_rates {
@@ -167,7 +166,7 @@ impl<'a> Scene<'a> {
             };
             command(&mut world, &std::array::from_fn(keeps), 1.0);
         }
-        let number = world.add_free_body(self.target);
+        let number = world.add_body(&self.target);
         let change = world.grasp(&self.tool, number, &ANY_GRIP);
         (world, change.unwrap_or(f64::NAN))
     }
@@ -176,15 +175,16 @@ impl<'a> Scene<'a> {
     fn mode(&self, mode: Mode) -> Value {
         let (mut world, change) = self.captured(mode);
         let (before, after) = (self.motion.state, world.state());
-        let system = *world.system();
+        let p_NScm_N = world.centre_of_mass(world.id);
+        let (linear, about_origin) = world.momentum(world.id);
+        let angular = about_origin - p_NScm_N.cross(linear);
         let energy = kinetic_energy(&kinematics(world.robot(), &after));
         let holding_B = -world.stored_momentum_B();
         let mut locked = self.locked(&world);
         let locked_value = locked_value(&locked);
         let (target, target_locked) = (released(&mut world), released(&mut locked));
-        let shares = |state: &State<f64, JOINTS>, target: &FreeBody| {
-            self.shares(state, target, system.p_NScm_N)
-        };
+        let shares =
+            |state: &State<f64, JOINTS>, target: &FreeBody| self.shares(state, target, p_NScm_N);
         let k = kinematics(&self.vehicle.robot, &before);
         let given = about(&self.target, target.p_NTcm_N) - about(&target, target.p_NTcm_N);
         let at_tool = given.about(k.pose(&self.tool).translation - target.p_NTcm_N);
@@ -200,10 +200,10 @@ impl<'a> Scene<'a> {
             "kinetic_energy_after": energy,
             "holding_impulse_on_base": { "angular": xyz(holding_B) },
             "total_momentum_after": {
-                "angular_about_common_centre_of_mass": xyz(system.angular),
-                "linear": xyz(system.linear),
+                "angular_about_common_centre_of_mass": xyz(angular),
+                "linear": xyz(linear),
             },
-            "common_centre_of_mass": xyz(system.p_NScm_N),
+            "common_centre_of_mass": xyz(p_NScm_N),
             "angular_momentum_shares": {
                 "before": shares(&before, &self.target),
                 "after": shares(&after, &target),
@@ -244,9 +244,10 @@ impl<'a> Scene<'a> {
     }
 
     /// The same vehicle with its joints locked from now on, and free to turn.
-    fn locked(&self, captured: &World<JOINTS>) -> World<JOINTS> {
+    fn locked(&self, captured: &OneSystem<JOINTS>) -> OneSystem<JOINTS> {
         let start = captured.state();
-        let mut world = self.world(BaseAttitude::Free, &start, captured.held());
+        let held: Vec<_> = captured.held().iter().map(|(_, h)| (h.frame, h.matter)).collect();
+        let mut world = self.world(BaseAttitude::Free, &start, &held);
         let drives = start.q.map(|position| Drive::Follow(SetPointMotion::still(position)));
         // The momentum is that of the start, rates of the joints included; from now on they stand.
         command(&mut world, &drives, 1.0);
@@ -277,18 +278,18 @@ fn about(body: &FreeBody, point_N: Vec3<f64>) -> SpatialForce<f64> {
     SpatialForce::new(body.angular, body.linear).about(point_N - body.p_NTcm_N)
 }
 
-fn command(world: &mut World<JOINTS>, drives: &[Drive; JOINTS], period: f64) {
+fn command(world: &mut OneSystem<JOINTS>, drives: &[Drive; JOINTS], period: f64) {
     world.command(drives, Vec3::zero(), &ActuatorCommand::default(), period);
 }
 
 /// The target as it goes on if it is let go at once.
-fn released(world: &mut World<JOINTS>) -> FreeBody {
+fn released(world: &mut OneSystem<JOINTS>) -> FreeBody {
     let number = world.release(0);
-    world.free_bodies()[number]
+    world.body(number)
 }
 
 /// What the file says of the vehicle once its joints are locked.
-fn locked_value(world: &World<JOINTS>) -> Value {
+fn locked_value(world: &OneSystem<JOINTS>) -> Value {
     let (state, robot) = (world.state(), world.robot());
     let (R_NB, k) = (state.X_NB.rotation, kinematics(robot, &state));
     let I_N = base_rows(&k).M_bb.in_axes(&R_NB).central();
@@ -298,6 +299,6 @@ fn locked_value(world: &World<JOINTS>) -> Value {
         "spin_inertial": xyz(R_NB * state.V_NB_B.angular),
         "kinetic_energy": kinetic_energy(&k),
         "inertia_about_common_centre_of_mass": inertia,
-        "velocity_of_common_centre_of_mass": xyz(world.system().linear * (1.0 / robot.mass())),
+        "velocity_of_common_centre_of_mass": xyz(world.momentum(world.id).0 * (1.0 / robot.mass())),
     })
 }

@@ -4,7 +4,8 @@
 
 use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, MassProperties, Robot, State};
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Sym3, Vec3, vec3};
-use wrasse_world::{BaseAttitude, Equipment, Stepper, World, WorldSetup};
+use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_world::{BaseAttitude, Equipment, Stepper};
 
 /// Joints of both arms.
 pub(crate) const J: usize = 4;
@@ -87,8 +88,8 @@ pub(crate) fn load() -> MassProperties<f64> {
 }
 
 /// The robot from a state, without limits, actuator or payload.
-pub(crate) fn world(start: State<f64, J>, base: BaseAttitude, step: f64) -> World<J> {
-    World::new(&WorldSetup {
+pub(crate) fn world(start: State<f64, J>, base: BaseAttitude, step: f64) -> OneSystem<J> {
+    OneSystem::new(&OneSystemSetup {
         robot: &robot(),
         limits: &[],
         actuator: None,

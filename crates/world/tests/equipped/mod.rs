@@ -8,7 +8,8 @@ use wrasse_hardware::{
     Thruster, WHEELS,
 };
 use wrasse_spatial::{SpatialVelocity, Sym3, Vec3, vec3};
-use wrasse_world::{BaseAttitude, Equipment, Stepper, World, WorldSetup};
+use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_world::{BaseAttitude, Equipment, Stepper};
 
 /// A wheel of 0.05 kg·m² without friction.
 pub(crate) fn wheel(axis_B: Vec3<f64>) -> ReactionWheel<f64> {
@@ -115,8 +116,8 @@ pub(crate) fn turning_block(
     w: Vec3<f64>,
     equipment: &Equipment,
     step: f64,
-) -> World<1> {
-    World::new(&WorldSetup {
+) -> OneSystem<1> {
+    OneSystem::new(&OneSystemSetup {
         robot,
         limits: &[],
         actuator: None,

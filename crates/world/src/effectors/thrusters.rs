@@ -1,8 +1,11 @@
 //! Thrusters as they behave: pulses that rise and fall evenly, none shorter than can be, each a
 //! little different.
 
+use super::{Effector, Load, Stage, Told};
 use crate::command::Saturation;
+use crate::failure::Failure;
 use crate::noise::Noise;
+use crate::source::Source;
 use wrasse_hardware::{List, STANDARD_GRAVITY, THRUSTERS, Thruster};
 use wrasse_spatial::{SpatialForce, Vec3};
 
@@ -24,7 +27,7 @@ struct Pulse {
 
 /// What breaks a valve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Jammed {
+enum Jammed {
     Shut,
     Open,
 }
@@ -49,77 +52,80 @@ impl Thrusters {
             noise: streams.map(|stream| Noise::new(seed, stream)).collect(),
         }
     }
-    /// A valve moves no more, from the next command on.
-    pub(crate) fn jam(&mut self, i: usize, jammed: Jammed) {
-        if i < self.list.len() {
-            self.jammed[i] = Some(jammed);
-        }
-    }
-    /// Set the pulses for a period (s), `gone` (s) after the last began.
-    pub(crate) fn command(
-        &mut self,
-        on: &[f64; THRUSTERS],
-        (gone, period): (f64, f64),
-        is_fed: bool,
-        cut: &mut Vec<Saturation>,
-    ) {
-        let mut is_missed = false;
-        for (i, thruster) in self.list.iter().enumerate() {
-            let before = self.pulses[i];
-            let is_open = before.shuts > gone;
-            let open_for = if is_open { before.open_for + gone } else { 0.0 };
-            let least = (thruster.minimum_on_time - open_for) * (1.0 - 1e-9);
-            let mut shuts = match self.jammed[i] {
-                Some(Jammed::Shut) => 0.0,
-                Some(Jammed::Open) => f64::INFINITY,
-                None => {
-                    let (shuts, is_as_told) = shutting_time(on[i], period, least, is_open);
-                    if is_fed && !is_as_told {
-                        cut.push(Saturation::PulseTooShort(i));
-                    }
-                    shuts
-                }
-            };
-            if !is_fed {
-                is_missed |= shuts > 0.0 || on[i] > 0.0;
-                shuts = 0.0;
-            }
-            let mut gain = before.gain;
-            if !is_open && shuts > 0.0 {
-                gain = (1.0 + thruster.impulse_noise * self.noise[i].normal()).max(0.0);
-            }
-            let level = before.level(thruster, gone, gone);
-            self.pulses[i] = Pulse { level, shuts, open_for, gain };
-        }
-        if is_missed {
-            cut.push(Saturation::TankEmpty);
-        }
-    }
-    /// The instants between `from` and `to` (s into the period) at which a force bends, in no order.
-    pub(crate) fn bends(&self, from: f64, to: f64) -> impl Iterator<Item = f64> {
-        let near = 1e-12 * to;
-        let each = self.list.iter().zip(&self.pulses);
-        let all = each.flat_map(|(thruster, pulse)| pulse.bends(thruster));
-        all.filter(move |t| *t > from + near && *t < to - near)
-    }
     /// Force of each thruster (N) at `t`, as in the stretch without a bend that holds `within` (s).
     fn forces(&self, t: f64, within: f64) -> impl Iterator<Item = (&Thruster<f64>, f64)> {
         self.list.iter().zip(&self.pulses).map(move |(thruster, pulse)| {
             (thruster, thruster.force * pulse.gain * pulse.level(thruster, t, within))
         })
     }
-    /// All together on the base, at its origin, in base axes (N·m, N).
-    pub(crate) fn wrench(&self, t: f64, within: f64) -> SpatialForce<f64> {
-        let (mut torque, mut force) = (Vec3::zero(), Vec3::zero());
-        for (thruster, size) in self.forces(t, within) {
-            let one = thruster.direction_B * size;
-            force += one;
-            torque += thruster.position_B.cross(one);
+    /// What a thruster does in a period, of its valve told to be open for `on` (s); whether that is as it
+    /// was told, and whether it missed its propellant.
+    fn pulse(&mut self, i: usize, on: f64, told: &Told<'_>) -> (Pulse, bool, bool) {
+        let (thruster, before) = (&self.list[i], self.pulses[i]);
+        let is_open = before.shuts > told.gone;
+        let open_for = if is_open { before.open_for + told.gone } else { 0.0 };
+        let least = (thruster.minimum_on_time - open_for) * (1.0 - 1e-9);
+        let (mut shuts, is_as_told) = match self.jammed[i] {
+            Some(Jammed::Shut) => (0.0, true),
+            Some(Jammed::Open) => (f64::INFINITY, true),
+            None => shutting_time(on, told.period, least, is_open),
+        };
+        let is_missed = !told.is_fed && (shuts > 0.0 || on > 0.0);
+        if !told.is_fed {
+            shuts = 0.0;
         }
-        SpatialForce::new(torque, force)
+        let mut gain = before.gain;
+        if !is_open && shuts > 0.0 {
+            gain = (1.0 + thruster.impulse_noise * self.noise[i].normal()).max(0.0);
+        }
+        let level = before.level(thruster, told.gone, told.gone);
+        (Pulse { level, shuts, open_for, gain }, is_as_told, is_missed)
     }
-    /// Propellant (kg) that leaves in a stretch without a bend, from `from` to `to` (s).
-    pub(crate) fn propellant(&self, from: f64, to: f64) -> f64 {
+}
+
+impl<const J: usize> Effector<J> for Thrusters {
+    fn source(&self) -> Source {
+        Source::Thrusters
+    }
+    fn act(&self, at: &Stage<'_, J>, _own: &[f64], load: &mut Load<'_, J>, _rates: &mut [f64]) {
+        for (thruster, size) in self.forces(at.t, at.within) {
+            let force = thruster.direction_B * size;
+            load.on_base += SpatialForce::new(thruster.position_B.cross(force), force);
+        }
+    }
+    /// Where a force bends.
+    fn breakpoints(&self, _start: f64, (from, to): (f64, f64), each: &mut dyn FnMut(f64)) {
+        let near = 1e-12 * to;
+        let all = self.list.iter().zip(&self.pulses).flat_map(|(t, pulse)| pulse.breakpoints(t));
+        all.filter(|t| *t > from + near && *t < to - near).for_each(each);
+    }
+    fn command(&mut self, told: &Told<'_>, _own: &[f64], cut: &mut Vec<Saturation>) {
+        let mut is_empty = false;
+        for i in 0..self.list.len() {
+            let (pulse, is_as_told, is_missed) = self.pulse(i, told.actuators.thruster_on[i], told);
+            if told.is_fed && !is_as_told {
+                cut.push(Saturation::PulseTooShort(i));
+            }
+            is_empty |= is_missed;
+            self.pulses[i] = pulse;
+        }
+        if is_empty {
+            cut.push(Saturation::TankEmpty);
+        }
+    }
+    /// A valve moves no more, from the next command on.
+    fn fail(&mut self, failure: Failure, _own: &mut [f64]) -> Option<Vec3<f64>> {
+        let (i, jammed) = match failure {
+            Failure::ThrusterShut(i) => (i, Jammed::Shut),
+            Failure::ThrusterOpen(i) => (i, Jammed::Open),
+            Failure::Wheel(_) | Failure::Gimbal(_) => return None,
+        };
+        if i < self.list.len() {
+            self.jammed[i] = Some(jammed);
+        }
+        None
+    }
+    fn propellant(&self, from: f64, to: f64) -> f64 {
         let middle = 0.5 * (from + to);
         let each = self.forces(middle, middle).filter(|(t, _)| t.specific_impulse > 0.0);
         each.fold(0.0, |mass, (thruster, force)| {
@@ -163,7 +169,7 @@ impl Pulse {
         self.shuts + self.level_at_shutting(thruster) * thruster.fall_time
     }
     /// Where rising ends, falling begins and ends (s).
-    fn bends(&self, thruster: &Thruster<f64>) -> [f64; 3] {
+    fn breakpoints(&self, thruster: &Thruster<f64>) -> [f64; 3] {
         [self.full_at(thruster).min(self.shuts), self.shuts, self.gone_at(thruster)]
     }
     /// Share of the full force at `t`, by the line that holds at `within` (s).

@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 use wrasse_dynamics::State;
 use wrasse_hardware::ActuatorCommand;
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Vec3};
+use wrasse_testing::{OneSystem, OneSystemSetup};
 use wrasse_vehicle::{JOINTS, Vehicle, read_vehicle};
-use wrasse_world::{BaseAttitude, Drive, Equipment, Stepper, World, WorldSetup};
+use wrasse_world::{BaseAttitude, Drive, Equipment, Stepper};
 
 fn validation() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation")
@@ -61,7 +62,7 @@ fn coasting_free_flyers_move_as_mujoco_has_it() {
         let file = validation().join(case["vehicle"].as_str().expect("a file"));
         let urdf = std::fs::read_to_string(&file).expect("the vehicle");
         let vehicle = read_vehicle(&file, urdf).expect("a sound vehicle");
-        let mut world: World<JOINTS> = World::new(&WorldSetup {
+        let mut world: OneSystem<JOINTS> = OneSystem::new(&OneSystemSetup {
             robot: &vehicle.robot,
             limits: &[],
             actuator: None,
