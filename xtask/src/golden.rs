@@ -10,6 +10,7 @@ mod paper_equations;
 mod product;
 mod state;
 mod table;
+mod two_bodies;
 
 use crate::tidy::repository_root;
 use comparison::Comparison;

@@ -246,8 +246,8 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
     }
 
     /// Joint rates and accelerations at time `t` (s) that lower the momentum that the push at the tool
-    /// puts into the base: the best rates are approached, and left in time before the phase ends, for rates that
-    /// jumped would ask for any torque.
+    /// puts into the base: the best rates are approached, and left in time before the phase ends, for
+    /// rates that jumped would ask for any torque.
     fn unload_by_posture(
         &mut self,
         context: &GuidanceContext<'_, T, J>,

@@ -104,7 +104,7 @@ impl<T> Actuation<T> {
     /// The actuators and how torque is allocated to them, if there are any.
     pub fn allocation(&self) -> Option<&AllocationSetup<T>> {
         match self {
-            Self::Fitted(allocator) => Some(allocator),
+            Self::Fitted(setup) => Some(setup),
             Self::None | Self::Ideal(_) => None,
         }
     }
@@ -112,8 +112,8 @@ impl<T> Actuation<T> {
     /// Whether a torque is given in the period in which it is wanted. Thrusters alone give pulses, and
     /// those when the lag of their modulation lets them.
     pub(crate) fn answers_at_once(&self) -> bool {
-        self.allocation().is_none_or(|allocator| {
-            let actuators = &allocator.actuators;
+        self.allocation().is_none_or(|setup| {
+            let actuators = &setup.actuators;
             !actuators.wheels.is_empty() || !actuators.cmgs.is_empty()
         })
     }

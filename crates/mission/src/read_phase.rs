@@ -41,7 +41,8 @@ pub(crate) fn phase(
         let found = if said.is_empty() { "none".into() } else { said.join(" and ") };
         let message =
             format!("phase {:?} must say exactly one thing to do, found {found}", file.name);
-        let help = "one of move_tool, move_joints, hold, unload_by_posture, grasp, release; write a phase for each";
+        let help = "one of move_tool, move_joints, hold, unload_by_posture, grasp, release; write a \
+                    phase for each";
         r.error(at!["phase", i], message, help);
         return None;
     }

@@ -395,7 +395,8 @@ fn keys_that_were_renamed_are_answered_with_their_new_names() {
     let help = renamed("told_after_s", "reported_after_s");
     assert_says("reported_after_s", "told_after_s", &[&help]);
     let help = renamed("feel_tool_wrench", "measure_tool_wrench");
-    assert_says("[control]", "[control]\nfeel_tool_wrench = true", &[&help]);
+    let text = changed("[control]", "[control]\nfeel_tool_wrench = true");
+    assert_refused(&text, "feel_tool_wrench", &[&help]);
     let phase = "[[phase]]\nname = \"lean\"\nrelieve = { duration_s = 9.0 }\n\n[[phase]]";
     let text =
         changed("[[phase]]", phase).replace("[control]", "[control]\nmeasure_tool_wrench = true");

@@ -82,7 +82,7 @@ const WORDS: [&str; 37] = [
     "unloading = { begins_at_nms = 0.01, ends_at_nms = 0.001, gain_per_s = 0.5 }\n",
     "gimbal_angles_deg = [90, 90, 90, 90], ",
     "[[failure]]\nunit = \"g-1\"\nkind = \"stuck\"\nat_s = 0.01\n",
-    "[[failure]]\nunit = \"t-1\"\nkind = \"open\"\nat_s = 0.01\ntold_after_s = 0.01\n",
+    "[[failure]]\nunit = \"t-1\"\nkind = \"open\"\nat_s = 0.01\nreported_after_s = 0.01\n",
     "[[failure]]\nunit = \"w1\"\nkind = \"dead\"\nat_s = 0.01\n",
     "[[world.applied_wrench]]\non = \"tool\"\ntorque_nm = [1e3, 0, 0]\nfrom_s = 0\nduration_s = 0.03\n",
 ];

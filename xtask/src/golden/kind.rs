@@ -6,6 +6,7 @@ use super::contract::Contract;
 use super::derivatives::Derivatives;
 use super::file::{Case, Complaint};
 use super::paper_equations::PaperEquations;
+use super::two_bodies::TwoBodies;
 
 /// A kind of golden case. It hands a case to the product and gives back what that finds; every number
 /// that is expected and not found is told as not compared.
@@ -22,7 +23,7 @@ pub(super) trait Kind {
 }
 
 /// All that are built.
-const KINDS: [&dyn Kind; 4] = [&Contract, &PaperEquations, &Derivatives, &Capture];
+const KINDS: [&dyn Kind; 5] = [&Contract, &PaperEquations, &Derivatives, &Capture, &TwoBodies];
 
 /// The kind of this name, if it is built.
 pub(super) fn named(kind: &str) -> Option<&'static dyn Kind> {

@@ -20,7 +20,8 @@ pub struct Desaturation<T> {
 impl<T: Scalar> Desaturation<T> {
     /// Torque that the thrusters should exert on the vehicle, base axes (N·m).
     ///
-    /// Wheels and CMGs must give the opposite, and so lose what they hold. `stored_B` is the momentum of wheels and CMGs against the base (N·m·s).
+    /// Wheels and CMGs must give the opposite, and so lose what they hold. `stored_B` is the
+    /// momentum of wheels and CMGs against the base (N·m·s).
     pub fn torque(&mut self, stored_B: Vec3<T>) -> Vec3<T> {
         let beyond = stored_B - self.target_B;
         let size = beyond.norm();

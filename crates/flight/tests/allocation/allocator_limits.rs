@@ -98,7 +98,7 @@ fn some_setup<T: Scalar>(
 
 /// A few periods in a row. Whether all commands are within limits, and whether all that is reported
 /// is finite.
-fn allocation<T: Scalar>(setup: &AllocationSetup<T>, periods: &[Period]) -> (bool, bool) {
+fn flown_by<T: Scalar>(setup: &AllocationSetup<T>, periods: &[Period]) -> (bool, bool) {
     let three = |of: [f64; 3]| Vec3::from_array(of.map(T::from_f64));
     let (mut allocator, all, mut within, mut finite) =
         (Allocator::new(setup), &setup.actuators, true, true);
@@ -145,8 +145,8 @@ proptest! {
         holds: bool,
         periods in prop::collection::vec(any_period(), 1..6)
     ) {
-        prop_assert!(allocation(&some_setup::<f64>(&all, robust, holds), &periods).0);
-        prop_assert!(allocation(&some_setup::<f32>(&all, robust, holds), &periods).0, "f32");
+        prop_assert!(flown_by(&some_setup::<f64>(&all, robust, holds), &periods).0);
+        prop_assert!(flown_by(&some_setup::<f32>(&all, robust, holds), &periods).0, "f32");
     }
 
     #[test]
@@ -156,8 +156,8 @@ proptest! {
         holds: bool,
         periods in prop::collection::vec(decent_period(), 1..6)
     ) {
-        prop_assert!(allocation(&some_setup::<f64>(&all, robust, holds), &periods).1);
-        prop_assert!(allocation(&some_setup::<f32>(&all, robust, holds), &periods).1, "f32");
+        prop_assert!(flown_by(&some_setup::<f64>(&all, robust, holds), &periods).1);
+        prop_assert!(flown_by(&some_setup::<f32>(&all, robust, holds), &periods).1, "f32");
     }
 }
 

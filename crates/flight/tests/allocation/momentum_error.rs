@@ -168,7 +168,7 @@ fn an_isolated_wheel_that_runs_down_is_held_against() {
 fn a_reading_that_is_no_number_silences_its_unit_alone_and_for_no_longer() {
     let demand = demand([0.05, -0.03, 0.06], [0.0; 3]);
     let mut bench = Bench::new(&setup(&actuators(&wheels(0.2), &cmgs(), &[])));
-    let last_valid = |bench: &mut Bench, spoilt: f64| {
+    let allocate_with = |bench: &mut Bench, spoilt: f64| {
         let told = bench.readings;
         bench.readings.wheel_speed[1] += spoilt;
         bench.readings.gimbal_angle[2] += spoilt;
@@ -180,7 +180,7 @@ fn a_reading_that_is_no_number_silences_its_unit_alone_and_for_no_longer() {
         bench.step(&demand);
     }
     for spoilt in [f64::NAN, f64::INFINITY] {
-        let last = last_valid(&mut bench, spoilt);
+        let last = allocate_with(&mut bench, spoilt);
         assert_eq!(last.command.wheel_torque[1], 0.0);
         assert_eq!(last.command.gimbal_rate[2], 0.0);
         assert!(size(last.report.missing.torque) < 1e-12, "{:?}", last.report);

@@ -201,7 +201,7 @@ fn the_laws_know_what_is_left_of_the_vehicle_when_propellant_has_gone() {
                  force_n = 2000.0\nspecific_impulse_s = 20.0\nsource.assumed = \"for this test\"\n\
                  [actuators.tank]\npropellant_kg = 300.0\nposition_m = {p_cm:?}\n\
                  source.assumed = \"for this test\"\n\
-                 [[failure]]\nunit = \"main\"\nkind = \"open\"\nat_s = 0.0\ntold_after_s = 0.0\n\
+                 [[failure]]\nunit = \"main\"\nkind = \"open\"\nat_s = 0.0\nreported_after_s = 0.0\n\
                  [[failure]]\nunit = \"main\"\nkind = \"shut\"\nat_s = 20.0\n\
                  [[phase]]\nname = \"burn\"\nhold = {{ duration_s = 25.0 }}\n\
                  [[phase]]\nname = \"reach\""

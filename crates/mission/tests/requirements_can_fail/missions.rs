@@ -110,7 +110,7 @@ fn thrusters() -> Pair {
     let mission = |newtons: f64| {
         format!(
             "{HEAD}{ARM}[[world.applied_wrench]]\non = \"tool\"\nforce_n = [-{newtons:.1}, 0.0, 0.0]\nfrom_s \
-             = 0.1\nduration_s = 10.0\nramp_s = 0.1\n{LAWS}attitude_bandwidth_rad_s = 1.0\nfeel_tool_wrench \
+             = 0.1\nduration_s = 10.0\nramp_s = 0.1\n{LAWS}attitude_bandwidth_rad_s = 1.0\nmeasure_tool_wrench \
              = true\nposition_hold = {{ bandwidth_rad_s = 0.7 }}\n[actuators]\nname = \"24\"\nthruster_set = \
              [{{ name = \"t\", model = \"moog-monarc-22-6\", arrangement = \"box\", count = 24, edges_m = \
              [1.8, 1.6, 1.6], position_m = [0.0, 0.0, 0.0] }}]\ntank = {{ propellant_kg = 60.0, position_m = \
