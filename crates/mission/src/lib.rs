@@ -61,3 +61,4 @@ pub use read_mission::{mission_schema, read_mission};
 pub use run::{Progress, RunOptions, run, run_case};
 pub use sample::{SampleOutcome, SamplePlan, fly_sample, plan_samples};
 pub use sampled_loops::SampledLoop;
+pub use wrasse_world::{Account, Booking, Bookings, Source};

@@ -6,6 +6,7 @@ use crate::observe::Observation;
 use serde::{Deserialize, Serialize};
 use wrasse_flight::Command;
 use wrasse_vehicle::JOINTS;
+use wrasse_world::{Account, Bookings};
 
 /// Everything about one `wrasse run`.
 #[derive(Debug, Clone, Serialize)]
@@ -218,70 +219,25 @@ pub struct Metric {
     pub unit: String,
 }
 
-/// Where momentum and energy went. Vectors are in inertial axes; angular momentum is about the
-/// centre of mass of everything that is simulated.
-#[derive(Debug, Clone, Default, Serialize)]
+/// Momentum and energy of a run, inertial axes, and who changed them. Angular momentum is about the origin
+/// of N.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Ledger {
-    /// Angular momentum of all bodies at the start (N·m·s).
-    pub angular_start: [f64; 3],
-    /// … at the end (N·m·s).
-    pub angular_end: [f64; 3],
-    /// Angular impulse by which the attitude actuator turned the bodies (N·m·s): what it stores is the
-    /// opposite.
-    pub angular_from_actuator: [f64; 3],
-    /// Of the angular momentum: in wheels and in CMGs beside the base, at the start and at the end
-    /// (N·m·s).
-    pub angular_in_wheels: [[f64; 3]; 2],
-    /// The same of the CMGs (N·m·s).
-    pub angular_in_cmgs: [[f64; 3]; 2],
-    /// Angular impulse of the thrusters (N·m·s).
-    pub angular_from_thrusters: [f64; 3],
-    /// Angular momentum that left with the propellant (N·m·s).
-    pub angular_with_propellant: [f64; 3],
-    /// Angular impulse from outside (N·m·s).
-    pub angular_from_outside: [f64; 3],
-    /// What is left unexplained, largest over the run (N·m·s).
-    pub angular_rest: f64,
-    /// Scale of the rest: the sum of the bodies' absolute angular momenta, largest over the run
-    /// (N·m·s).
-    pub angular_scale: f64,
-    /// Linear momentum at the start (N·s).
-    pub linear_start: [f64; 3],
-    /// … at the end (N·s).
-    pub linear_end: [f64; 3],
-    /// Impulse from outside (N·s).
-    pub linear_from_outside: [f64; 3],
-    /// Impulse of the thrusters (N·s).
-    pub linear_from_thrusters: [f64; 3],
-    /// Momentum that left with the propellant (N·s).
-    pub linear_with_propellant: [f64; 3],
+    /// At the start.
+    pub start: Account,
+    /// At the end.
+    pub end: Account,
+    /// What each source has given the bodies.
+    pub sources: Bookings,
     /// Propellant that left (kg).
     pub propellant: f64,
-    /// Kinetic energy that left with it (J).
-    pub energy_with_propellant: f64,
-    /// Unexplained, largest over the run (N·s).
-    pub linear_rest: f64,
-    /// Sum of the bodies' absolute momenta, largest over the run (N·s).
-    pub linear_scale: f64,
-    /// Kinetic energy at the start (J).
-    pub energy_start: f64,
-    /// … at the end (J).
-    pub energy_end: f64,
-    /// Work of the joint drives (J).
-    pub work_of_joints: f64,
-    /// Work of whatever turns and pushes the base on the bodies (J).
-    pub work_of_actuator: f64,
-    /// Work from outside (J).
-    pub work_from_outside: f64,
-    /// Energy change at grasps and releases (J): negative where a grasp dissipates.
-    pub energy_at_grasps: f64,
-    /// Unexplained, largest over the run (J).
-    pub energy_rest: f64,
-    /// Largest energy in play (J).
-    pub energy_scale: f64,
-    /// Whether each rest is within its bound.
+    /// What no source explains, largest over the run: angular (N·m·s), linear (N·s), energy (J).
+    pub residual: [f64; 3],
+    /// What was in play, largest over the run: the sums of the bodies' absolute momenta, the energy.
+    pub scale: [f64; 3],
+    /// Whether each residual is within its bound.
     pub closes: bool,
-    /// The bounds that were applied, relative to the scales: angular, linear, energy.
+    /// The bounds that were applied, relative to the scales.
     pub bounds: [f64; 3],
 }
 

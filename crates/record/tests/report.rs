@@ -3,8 +3,9 @@
 
 mod sample;
 
-use wrasse_mission::{CaseOutcome, End, EventKind, Ledger, Outcome, Verdict};
+use wrasse_mission::{CaseOutcome, End, EventKind, Outcome, Verdict};
 use wrasse_record::{report_html, verdict_table};
+use wrasse_spatial::Vec3;
 
 /// The page without what browsers do not read as markup: contents of scripts and styles.
 fn markup_only(page: &str) -> String {
@@ -243,7 +244,8 @@ fn a_run_that_broke_down_leaves_a_page_and_a_table() {
     let mut outcome = sample::single();
     let case = &mut outcome.cases[0];
     case.end = End::Breakdown { time_s: 3.0, reason: "rate of body link2 is NaN".into() };
-    case.ledger = Ledger { energy_rest: f64::NAN, angular_end: [f64::NAN; 3], ..case.ledger };
+    case.ledger.residual[2] = f64::NAN;
+    case.ledger.end.angular = Vec3::from_array([f64::NAN; 3]);
     case.ledger.closes = false;
     case.verdicts[0].value = Some(f64::INFINITY);
     for channel in &mut case.telemetry.channels {

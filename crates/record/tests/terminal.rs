@@ -16,7 +16,7 @@ actuator.momentum.max                    <= 25    23.45  N·m·s  pass
 tool.position_error.final during hold  <= 0.02   0.0017  mm     pass
 
 momentum  ledger closes: angular 3.1e-14 of 48.2 N·m·s unexplained (6.4e-16, bound 1.0e-12); linear 1.2e-14 of 14.6 N·s unexplained (8.2e-16, bound 1.0e-12)
-energy    ledger closes: 2.4e-12 of 0.391 J unexplained (6.1e-12, bound 1.0e-8); joints 0.0123 J, actuator -0.0123 J, outside 0 J, grasps 0 J
+energy    ledger closes: 2.4e-12 of 0.391 J unexplained (6.1e-12, bound 1.0e-8); joint drives 0.0123 J, attitude actuator -0.0123 J
 integration error, from a second run at half the step: base.attitude 3.1e-12 rad
 ";
     assert_eq!(format!("\n{}", verdict_table(&sample::single())), expected);
@@ -46,7 +46,7 @@ law=terrestrial, load=500 kg: tool.position_error.max <= 0.3 mm fails with 124.8
 law=free-floating, load=500 kg: infeasible in phase reach at 13.28 s: the wrist is 0.8731 m from the shoulder, the arm reaches 0.8500 m: the base recoils away from the target
 
 momentum  ledger closes: angular 3.1e-14 of 48.2 N·m·s unexplained (6.4e-16, bound 1.0e-12); linear 1.2e-14 of 14.6 N·s unexplained (8.2e-16, bound 1.0e-12) (worst of the cases: law=terrestrial, load=unladen)
-energy    ledger closes: 2.4e-12 of 0.391 J unexplained (6.1e-12, bound 1.0e-8); joints 0.0123 J, actuator -0.0123 J, outside 0 J, grasps 0 J
+energy    ledger closes: 2.4e-12 of 0.391 J unexplained (6.1e-12, bound 1.0e-8); joint drives 0.0123 J, attitude actuator -0.0123 J
 ";
     assert_eq!(format!("\n{}", verdict_table(&sample::compared())), expected);
 }

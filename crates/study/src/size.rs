@@ -12,7 +12,9 @@ use crate::outcome::{Finding, Flown, SetCard, SetKind, SetVerdict, StudyOutcome,
 use crate::study::{Study, Task};
 use wrasse_dynamics::{JointKind, State};
 use wrasse_hardware::{List, ReactionWheel};
-use wrasse_mission::{CaseOutcome, End, EventKind, Metric, Progress, ProvenanceRow};
+use wrasse_mission::{
+    Booking, CaseOutcome, End, EventKind, Metric, Progress, ProvenanceRow, Source,
+};
 use wrasse_spatial::{Vec3, vec3};
 use wrasse_vehicle::{Equipment, Grade, Vehicle};
 
@@ -219,9 +221,7 @@ fn ended(case: &CaseOutcome) -> Option<String> {
 
 /// Whether nothing acts from outside: then the task can be done more slowly.
 fn is_own_motion(case: &CaseOutcome) -> bool {
-    let ledger = &case.ledger;
-    let outside = [ledger.angular_from_outside, ledger.linear_from_outside];
-    outside.iter().flatten().all(|x| *x == 0.0)
+    case.ledger.sources[Source::Applied] == Booking::default()
 }
 
 /// The demand on the base of a flight with the reference. The torque is what changed the momentum that
@@ -249,7 +249,7 @@ fn demand(case: &CaseOutcome) -> Demand {
 /// Force that would hold the base against what pulls at the tool (N): the impulse from outside, spread
 /// over time as the torque is, for both come of one pull at one lever. Base axes are those of the start.
 fn holding_force(case: &CaseOutcome, demand: &Demand) -> Vec<Vec3<f64>> {
-    let impulse = Vec3::from_array(case.ledger.linear_from_outside);
+    let impulse = case.ledger.sources[Source::Applied].linear;
     let torques = || demand.torque_B.iter().map(|torque| torque.norm());
     let mut before = 0.0;
     let steps = demand.time.iter().map(|t| t - core::mem::replace(&mut before, *t));

@@ -44,6 +44,21 @@ impl Source {
         Self::Couplings,
         Self::Grasps,
     ];
+    /// Its name in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::JointDrives => "joint drives",
+            Self::JointSprings => "joint springs",
+            Self::AttitudeActuator => "attitude actuator",
+            Self::Wheels => "wheels",
+            Self::Cmgs => "CMGs",
+            Self::Thrusters => "thrusters",
+            Self::Propellant => "propellant",
+            Self::Applied => "applied wrenches",
+            Self::Couplings => "couplings",
+            Self::Grasps => "grasps",
+        }
+    }
 }
 
 /// What one source has given the bodies since the start.

@@ -3,7 +3,7 @@
 use crate::{case, channel, degrees, fly, metric, read, text_of};
 use wrasse_dynamics::{MassProperties, Robot, State, kinematics, momentum};
 use wrasse_hardware::STANDARD_GRAVITY;
-use wrasse_mission::{CaseOutcome, RunOptions, run};
+use wrasse_mission::{CaseOutcome, RunOptions, Source, run};
 use wrasse_spatial::{Sym3, Vec3, vec3};
 use wrasse_vehicle::{JOINTS, find_vehicle};
 
@@ -69,11 +69,11 @@ fn momentum_of_the_arm_and_momentum_of_wheels_or_cmgs_add_up_to_nothing() {
 fn momentum_in_wheels_and_cmgs_stands_in_the_ledger_and_the_sum_stays() {
     for name in ["wheels-saturate", "wheel-fails", "cmgs"] {
         let l = &case(name, "").ledger;
-        let inside = [l.angular_in_wheels[1], l.angular_in_cmgs[1]];
-        assert!(inside.iter().flatten().any(|h| h.abs() > 1e-9), "{name}: nothing inside");
-        let sum = l.angular_end.iter().fold(0.0, |most: f64, h| most.max(h.abs()));
+        let stored = [Source::Wheels, Source::Cmgs].map(|s| l.end.stored[s as usize].norm());
+        assert!(stored.iter().any(|h| *h > 1e-9), "{name}: nothing stored");
+        let sum = l.end.angular.to_array().iter().fold(0.0, |most: f64, h| most.max(h.abs()));
         println!("{name}: {sum:.1e} N·m·s");
-        assert!(sum < 1e-12, "{name}: nothing from outside, and {:?}", l.angular_end);
+        assert!(sum < 1e-12, "{name}: nothing from outside, and {:?}", l.end.angular);
     }
 }
 
@@ -82,22 +82,10 @@ fn momentum_in_wheels_and_cmgs_stands_in_the_ledger_and_the_sum_stays() {
 fn impulses_of_thrusters_and_from_outside_add_up_to_the_momentum_at_the_end() {
     for name in ["thrusters", "hybrid", "tank-empty"] {
         let l = &case(name, "").ledger;
-        let off = |start: [f64; 3], end: [f64; 3], into: [[f64; 3]; 2], left: [f64; 3]| {
-            let sum = |i: usize| start[i] + into[0][i] + into[1][i] - left[i] - end[i];
-            (0..3).map(|i| sum(i).abs()).fold(0.0, f64::max)
-        };
-        let angular = off(
-            l.angular_start,
-            l.angular_end,
-            [l.angular_from_thrusters, l.angular_from_outside],
-            l.angular_with_propellant,
-        );
-        let linear = off(
-            l.linear_start,
-            l.linear_end,
-            [l.linear_from_thrusters, l.linear_from_outside],
-            l.linear_with_propellant,
-        );
+        let given = l.sources.total();
+        let angular = (l.start.angular + given.angular - l.end.angular).norm();
+        let linear = (l.start.linear + given.linear - l.end.linear).norm();
+        assert!(l.sources[Source::Thrusters].linear.norm() > 1.0, "{name}");
         println!("{name}: {angular:.1e} N·m·s, {linear:.1e} N·s");
         assert!(angular < 1e-10 && linear < 1e-10, "{name}: {angular} {linear}");
         let used = metric(case(name, ""), "thrusters.propellant_used.final");

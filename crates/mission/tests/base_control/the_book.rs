@@ -3,7 +3,7 @@
 use crate::figures::Page;
 use crate::{case, degrees, fly, metric, said, text_of};
 use wrasse_hardware::STANDARD_GRAVITY;
-use wrasse_mission::CaseOutcome;
+use wrasse_mission::{CaseOutcome, Source};
 
 fn turned(case: &CaseOutcome) -> f64 {
     degrees(case, "base.rotation.max")
@@ -108,7 +108,7 @@ fn the_guide_tells_of_cmgs_and_thrusters(page: &mut Page) {
             moved * 1e3,
             used,
             290.0 / (229.5 * STANDARD_GRAVITY),
-            -pulled.ledger.linear_from_outside[0],
+            -pulled.ledger.sources[Source::Applied].linear.x,
         ],
     );
 }

@@ -2,7 +2,7 @@
 
 use crate::{FLOWN, about, case, channel, degrees, fly, metric, said, text_of};
 use wrasse_hardware::STANDARD_GRAVITY;
-use wrasse_mission::{CaseOutcome, End, EventKind};
+use wrasse_mission::{CaseOutcome, End, EventKind, Source};
 
 /// Measured: what nobody booked is at most 2.6e-14 of what is there in angular momentum, 1.3e-14 in
 /// linear, 7.3e-9 in energy.
@@ -13,11 +13,8 @@ fn every_mission_of_base_control_flies_to_its_end_and_closes_its_books() {
     for case in FLOWN.values().flat_map(|outcome| &outcome.cases) {
         assert!(matches!(case.end, End::Completed) && case.ledger.closes, "{:?}", case.end);
         let l = &case.ledger;
-        let rests = [
-            l.angular_rest / l.angular_scale,
-            l.linear_rest / l.linear_scale,
-            l.energy_rest / l.energy_scale,
-        ];
+        let rests =
+            [l.residual[0] / l.scale[0], l.residual[1] / l.scale[1], l.residual[2] / l.scale[2]];
         worst = core::array::from_fn(|i| worst[i].max(rests[i]));
     }
     println!("{worst:?}");
@@ -84,8 +81,8 @@ fn wheels_hold_the_base_of_the_empty_arm_and_cmgs_that_of_a_laden_one() {
 fn thrusters_give_back_the_pull_and_their_propellant_is_worth_its_impulse() {
     let flown = case("thrusters", "");
     let l = &flown.ledger;
-    about(-l.linear_from_outside[0], 290.0, 1e-9);
-    about(l.linear_from_thrusters[0], 290.0, 0.01);
+    about(-l.sources[Source::Applied].linear.x, 290.0, 1e-9);
+    about(l.sources[Source::Thrusters].linear.x, 290.0, 0.01);
     let least = 290.0 / (229.5 * STANDARD_GRAVITY);
     let used = metric(flown, "thrusters.propellant_used.final");
     println!("{used} kg, at least {least} kg");
@@ -214,7 +211,7 @@ fn thrusters_empty_the_cmgs_as_often_as_they_are_full() {
     about(metric(flown, "thrusters.propellant_used.final"), 0.0385, 0.1);
     about(degrees(flown, "base.rotation.max"), 0.137, 0.2);
     // What the couple brings in is far more than the CMGs hold: the thrusters took it.
-    assert!(flown.ledger.angular_from_outside[2] > 80.0);
+    assert!(flown.ledger.sources[Source::Applied].angular.z > 80.0);
     assert!(metric(flown, "attitude.torque_missing.max") < 1e-6);
 }
 

@@ -5,7 +5,7 @@ use wrasse_mission::{CaseOutcome, Event, EventKind, Ledger, Outcome, Verdict};
 use super::{Side, aligned, printable};
 use crate::wording::cases::{case_name, judged, reason};
 use crate::wording::comparison::{Comparison, comparison};
-use crate::wording::ledger::{OPEN, Rest, ledger_rests, no_ledger};
+use crate::wording::ledger::{OPEN, Rest, ledger_rests, no_ledger, sources};
 use crate::wording::numbers::{beside_limit, power, significant};
 
 /// Verdicts, the end if it came early, and the ledger in a line each for momentum and energy;
@@ -185,6 +185,15 @@ fn worst_ledger(cases: &[CaseOutcome]) -> Option<&CaseOutcome> {
     flown.reduce(|worst, case| if share(case) > share(worst) { case } else { worst })
 }
 
+/// The work of each source that has done any: `; joint drives 0.1 J, thrusters 2 J`.
+fn works(ledger: &Ledger) -> String {
+    let done = sources(ledger).filter(|(_, given)| given.work != 0.0);
+    let each =
+        done.map(|(source, given)| format!("{} {} J", source.name(), significant(given.work)));
+    let all = each.collect::<Vec<_>>().join(", ");
+    if all.is_empty() { all } else { format!("; {all}") }
+}
+
 /// One line for momentum and one for energy.
 fn ledger_lines(ledger: &Ledger, whose: &str) -> String {
     let [angular, linear, energy] = ledger_rests(ledger);
@@ -202,15 +211,12 @@ fn ledger_lines(ledger: &Ledger, whose: &str) -> String {
     let hint = if ledger.closes { "" } else { OPEN };
     format!(
         "momentum  {}: angular {}; linear {}{whose}\n\
-         energy    {}: {}; joints {} J, actuator {} J, outside {} J, grasps {} J\n{hint}",
+         energy    {}: {}{}\n{hint}",
         closes(angular.within() && linear.within()),
         told(&angular),
         told(&linear),
         closes(energy.within()),
         told(&energy),
-        significant(ledger.work_of_joints),
-        significant(ledger.work_of_actuator),
-        significant(ledger.work_from_outside),
-        significant(ledger.energy_at_grasps),
+        works(ledger),
     )
 }

@@ -1,7 +1,7 @@
 //! The ledger in words: what it leaves unexplained, how much that is of what was in play, why there
 //! is none, what to try if it stays open.
 
-use wrasse_mission::{CaseOutcome, End, Ledger};
+use wrasse_mission::{Booking, CaseOutcome, End, Ledger, Source};
 
 /// What to try when the ledger does not close.
 pub(crate) const OPEN: &str = "          an open ledger fails the run; a smaller world.step_s closes it if the \
@@ -41,10 +41,16 @@ pub(crate) fn ledger_rests(ledger: &Ledger) -> [Rest; 3] {
     };
     let [angular, linear, energy] = ledger.bounds;
     [
-        rest("N·m·s", ledger.angular_rest, ledger.angular_scale, angular),
-        rest("N·s", ledger.linear_rest, ledger.linear_scale, linear),
-        rest("J", ledger.energy_rest, ledger.energy_scale, energy),
+        rest("N·m·s", ledger.residual[0], ledger.scale[0], angular),
+        rest("N·s", ledger.residual[1], ledger.scale[1], linear),
+        rest("J", ledger.residual[2], ledger.scale[2], energy),
     ]
+}
+
+/// The sources that have given anything.
+pub(crate) fn sources(ledger: &Ledger) -> impl Iterator<Item = (Source, Booking)> + '_ {
+    let all = Source::ALL.into_iter().map(|source| (source, ledger.sources[source]));
+    all.filter(|(_, given)| *given != Booking::default())
 }
 
 impl Rest {

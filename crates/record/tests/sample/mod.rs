@@ -3,9 +3,11 @@
 #![allow(dead_code, reason = "each test file uses its own part")]
 
 use wrasse_mission::{
-    CaseOutcome, Channel, End, Event, EventKind, Ledger, Metric, Outcome, PlanLine, ProvenanceRow,
-    Setting, Snapshot, SnapshotBox, Telemetry, VehicleCard, Verdict,
+    Account, Booking, Bookings, CaseOutcome, Channel, End, Event, EventKind, Ledger, Metric,
+    Outcome, PlanLine, ProvenanceRow, Setting, Snapshot, SnapshotBox, Source, Telemetry,
+    VehicleCard, Verdict,
 };
+use wrasse_spatial::vec3;
 
 const DURATION: f64 = 24.0;
 
@@ -179,19 +181,15 @@ fn case(labels: Vec<(String, String)>, miss: f64, samples: usize) -> CaseOutcome
 }
 
 fn ledger() -> Ledger {
+    let angular = vec3(0.12, -0.034, 21.9);
+    let mut sources = Bookings::default();
+    sources[Source::JointDrives].work = 0.0123;
+    sources[Source::AttitudeActuator] = Booking { angular, work: -0.0123, ..Booking::default() };
     Ledger {
-        angular_end: [0.12, -0.034, 21.9],
-        angular_from_actuator: [0.12, -0.034, 21.9],
-        angular_rest: 3.1e-14,
-        angular_scale: 48.2,
-        linear_rest: 1.2e-14,
-        linear_scale: 14.6,
-        energy_start: 0.0,
-        energy_end: 1.3e-9,
-        work_of_joints: 0.0123,
-        work_of_actuator: -0.0123,
-        energy_rest: 2.4e-12,
-        energy_scale: 0.391,
+        end: Account { angular, energy: 1.3e-9, ..Account::default() },
+        sources,
+        residual: [3.1e-14, 1.2e-14, 2.4e-12],
+        scale: [48.2, 14.6, 0.391],
         closes: true,
         bounds: [1e-12, 1e-12, 1e-8],
         ..Ledger::default()

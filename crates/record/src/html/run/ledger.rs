@@ -1,36 +1,23 @@
-//! The report's section on the ledger: what was booked of momentum and energy, and what is left
-//! over.
+//! The report's section on the ledger: what each source gave of momentum and energy, and what none
+//! explains.
 
 use maud::{Markup, PreEscaped, html};
-use wrasse_mission::{CaseOutcome, Ledger};
+use wrasse_mission::{Account, Booking, CaseOutcome, Ledger, Source};
+use wrasse_spatial::Vec3;
 
 use super::super::{Head, said, table};
-use crate::wording::ledger::{Rest, ledger_rests, no_ledger};
+use crate::wording::ledger::{Rest, ledger_rests, no_ledger, sources};
 use crate::wording::numbers::{power, significant};
 
-const HEAD: [&str; 13] = [
-    "",
-    "Start",
-    "Joint drives",
-    "Attitude actuator",
-    "Thrusters",
-    "Outside",
-    "With propellant",
-    "Grasps",
-    "End",
-    "Unexplained",
-    "Of",
-    "Relative",
-    "Bound",
-];
+/// What stands behind the sources.
+const TAIL: [&str; 5] = ["End", "Unexplained", "Of", "Relative", "Bound"];
 
 const NAMES: [&str; 3] =
     ["Angular momentum (N·m·s)", "Linear momentum (N·s)", "Kinetic energy (J)"];
 
-const FRAMES: &str = "Vectors are in inertial axes, angular momentum is about the centre of mass \
-     of everything simulated. What the attitude actuator stores is the opposite of its entry; what \
-     wheels and CMGs store is part of start and end, and the work on the bodies of thrusters, \
-     wheels and CMGs stands under the attitude actuator. Rests are the largest over the run.";
+const FRAMES: &str = "Vectors are in inertial axes, angular momentum is about the origin of N. What the \
+     attitude actuator stores is the opposite of its entry; what wheels and CMGs store is part of start \
+     and end, so they enter with their work alone. Residuals are the largest over the run.";
 
 /// The ledger of a case, or why there is none.
 pub(super) fn ledger(case: &CaseOutcome) -> Markup {
@@ -39,7 +26,11 @@ pub(super) fn ledger(case: &CaseOutcome) -> Markup {
         return html! { p { (first.to_uppercase()) (rest) "." } };
     }
     let ledger = &case.ledger;
-    let rows = NAMES.iter().zip(entries(ledger)).zip(ledger_rests(ledger));
+    let given: Vec<_> = sources(ledger).collect();
+    let names = given.iter().map(|(source, _)| source.name());
+    let head = ["", "Start"].into_iter().chain(names).chain(TAIL);
+    let head: Vec<_> = head.map(Head::Plain).collect();
+    let rows = NAMES.iter().zip(entries(ledger, &given)).zip(ledger_rests(ledger));
     let body = html! {
         @for ((name, entries), rest) in rows {
             tr {
@@ -56,7 +47,7 @@ pub(super) fn ledger(case: &CaseOutcome) -> Markup {
     };
     html! {
         p { (said(ledger.closes, "closes", "stays open")) (why) }
-        (table("ledger", &HEAD.map(Head::Plain), &body))
+        (table("ledger", &head, &body))
         (stores(ledger).unwrap_or_default())
         p.hint { (FRAMES) }
     }
@@ -66,50 +57,31 @@ fn figures(rest: &Rest) -> [String; 4] {
     [power(rest.rest), significant(rest.scale), power(rest.relative), power(rest.bound)]
 }
 
-/// What was booked of angular momentum, linear momentum and energy, in the order of the table.
-fn entries(ledger: &Ledger) -> [[Markup; 8]; 3] {
-    let none = Markup::default;
-    let left = |v: [f64; 3]| stacked(v.map(|x| -x));
-    let one = |x: f64| html! { (significant(x)) };
+/// Angular momentum, linear momentum and energy: at the start, what each source gave, at the end. A source
+/// that gave nothing of one has an empty cell there.
+fn entries(ledger: &Ledger, given: &[(Source, Booking)]) -> [Vec<Markup>; 3] {
+    let (start, end) = (&ledger.start, &ledger.end);
+    let row = |start: Markup, each: &dyn Fn(&Booking) -> Markup, end: Markup| {
+        let sources = given.iter().map(|(_, given)| each(given));
+        std::iter::once(start).chain(sources).chain([end]).collect()
+    };
+    let work =
+        |given: &Booking| if given.work == 0.0 { Markup::default() } else { one(given.work) };
     [
-        [
-            stacked(ledger.angular_start),
-            none(),
-            stacked(ledger.angular_from_actuator),
-            stacked(ledger.angular_from_thrusters),
-            stacked(ledger.angular_from_outside),
-            left(ledger.angular_with_propellant),
-            none(),
-            stacked(ledger.angular_end),
-        ],
-        [
-            stacked(ledger.linear_start),
-            none(),
-            none(),
-            stacked(ledger.linear_from_thrusters),
-            stacked(ledger.linear_from_outside),
-            left(ledger.linear_with_propellant),
-            none(),
-            stacked(ledger.linear_end),
-        ],
-        [
-            one(ledger.energy_start),
-            one(ledger.work_of_joints),
-            one(ledger.work_of_actuator),
-            none(),
-            one(ledger.work_from_outside),
-            one(-ledger.energy_with_propellant),
-            one(ledger.energy_at_grasps),
-            one(ledger.energy_end),
-        ],
+        row(stacked(start.angular), &|given| moved(given.angular), stacked(end.angular)),
+        row(stacked(start.linear), &|given| moved(given.linear), stacked(end.linear)),
+        row(one(start.energy), &work, one(end.energy)),
     ]
 }
 
 /// Where the angular momentum was at the start and at the end, if there are wheels or CMGs.
 fn stores(ledger: &Ledger) -> Option<Markup> {
-    let each = [("wheels", ledger.angular_in_wheels), ("cmgs", ledger.angular_in_cmgs)];
-    let holds = |[start, end]: &[[f64; 3]; 2]| start.iter().chain(end).any(|x| *x != 0.0);
-    let there: Vec<_> = each.iter().filter(|(_, ends)| holds(ends)).collect();
+    let each = [Source::Wheels, Source::Cmgs].map(|source| {
+        let at = |account: &Account| account.stored[source as usize];
+        (source.name(), [at(&ledger.start), at(&ledger.end)])
+    });
+    let there: Vec<_> =
+        each.iter().filter(|(_, ends)| ends.iter().any(|h| *h != Vec3::zero())).collect();
     let body = html! {
         @for (what, ends) in &there {
             tr {
@@ -122,7 +94,16 @@ fn stores(ledger: &Ledger) -> Option<Markup> {
     (!there.is_empty()).then(|| table("text", &head, &body))
 }
 
+fn one(x: f64) -> Markup {
+    html! { (significant(x)) }
+}
+
+/// An impulse; nothing where there is none.
+fn moved(v: Vec3<f64>) -> Markup {
+    if v == Vec3::zero() { Markup::default() } else { stacked(v) }
+}
+
 /// A vector's components below each other.
-fn stacked(value: [f64; 3]) -> Markup {
-    PreEscaped(value.map(significant).join("<br/>"))
+fn stacked(value: Vec3<f64>) -> Markup {
+    PreEscaped(value.to_array().map(significant).join("<br/>"))
 }
