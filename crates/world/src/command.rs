@@ -1,6 +1,6 @@
 //! What drives the joints and turns the base in a control period, within its limits.
 
-use crate::effectors::Told;
+use crate::effectors::PeriodCommand;
 use crate::scene::{Scene, SystemId};
 use crate::setup::{BaseAttitude, Drive};
 use crate::system::System;
@@ -67,7 +67,8 @@ impl<const J: usize> Scene<J> {
         // On a base that is held they do not act, whatever they are told.
         if system.base != BaseAttitude::Held {
             let is_fed = system.is_fed();
-            system.command_effectors(&Told { actuators, w_NB_B, gone, period, is_fed }, cut);
+            system
+                .command_effectors(&PeriodCommand { actuators, w_NB_B, gone, period, is_fed }, cut);
         }
     }
 }
@@ -85,7 +86,7 @@ impl<const J: usize> System<J> {
         }
     }
 
-    fn command_effectors(&mut self, told: &Told<'_>, cut: &mut Vec<Saturation>) {
+    fn command_effectors(&mut self, told: &PeriodCommand<'_>, cut: &mut Vec<Saturation>) {
         for (i, effector) in self.effectors.iter_mut().enumerate() {
             effector.command(told, &self.row[self.variables.effector(i)], cut);
         }

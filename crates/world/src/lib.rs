@@ -29,7 +29,8 @@ pub use advance::NonFinite;
 pub use command::Saturation;
 pub use couplings::{Bushing, Coupling, FrameMotion};
 pub use effectors::{
-    AppliedWrench, Course, Effector, GimbalMotors, Instant, Load, Stage, TankWithPropellant, Told,
+    AppliedWrench, Course, Effector, GimbalMotors, Instant, Load, PeriodCommand, Stage,
+    TankWithPropellant,
 };
 pub use effectors::{FlexibleJoint, FlexibleJoints, JointSpring, PassiveJoints};
 pub use events::{Crossing, Event, EventValue, Happening};

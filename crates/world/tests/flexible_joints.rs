@@ -1,5 +1,6 @@
 //! Joints with springs, and driven joints whose transmission gives.
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
+#![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
 
 mod branched;
 

@@ -77,7 +77,7 @@ fn a_thruster_that_is_open_goes_on_without_a_new_rise() {
     let expected = 4.0 * (0.1 + 0.1 + 0.05 - 0.003 + 0.0045);
     near("through", impulse(aside(), &[0.1, 0.1, 0.05]), expected, 1e-10);
     near("anew", impulse(aside(), &[0.05, 0.05]), 2.0 * 4.0 * (0.05 - 0.003 + 0.0045), 1e-10);
-    // Told to shut at once after a whole period: only its fall is left.
+    // PeriodCommand to shut at once after a whole period: only its fall is left.
     near("fall", impulse(aside(), &[0.1, 0.0]), 4.0 * (0.1 - 0.003 + 0.0045), 1e-10);
 }
 

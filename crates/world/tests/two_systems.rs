@@ -1,6 +1,7 @@
 //! Several systems in one scene: apart they do not know of each other; coupled they push each other and
 //! nothing else.
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
+#![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
 
 mod branched;
 

@@ -31,20 +31,20 @@ pub(crate) fn task_figures(outcome: &StudyOutcome) -> Markup {
 }
 
 /// A quantity that a task asks for and a set can give.
-struct Asked {
+struct DemandQuantity {
     name: &'static str,
     axis: &'static str,
     asked: fn(&TaskOutcome) -> Vec<f64>,
     given: fn(&SetVerdict) -> Option<f64>,
 }
 
-const TORQUE: Asked = Asked {
+const TORQUE: DemandQuantity = DemandQuantity {
     name: "torque",
     axis: "torque (N·m)",
     asked: |task| task.demand.torque_B.iter().map(|v| v.norm()).collect(),
     given: |verdict| verdict.torque_nm.plain,
 };
-const MOMENTUM: Asked = Asked {
+const MOMENTUM: DemandQuantity = DemandQuantity {
     name: "momentum",
     axis: "momentum (N·m·s)",
     asked: |task| task.demand.momentum_B.iter().map(|v| v.norm()).collect(),
@@ -52,7 +52,7 @@ const MOMENTUM: Asked = Asked {
 };
 
 /// A demand over time and the limits of the sets.
-fn against(outcome: &StudyOutcome, task: &TaskOutcome, what: &Asked) -> Option<Markup> {
+fn against(outcome: &StudyOutcome, task: &TaskOutcome, what: &DemandQuantity) -> Option<Markup> {
     let (time, asked) = (&task.demand.time, (what.asked)(task));
     let peak = asked.iter().copied().fold(0.0, f64::max);
     let (first, last) = (time.first()?, time.last()?);

@@ -61,7 +61,7 @@ impl Verdicts<'_> {
             tasks.len(),
             self.asked()
         );
-        for (kind, name) in [(SetKind::Wheels, "wheels"), (SetKind::Cmgs, "cmgs")] {
+        for (kind, name) in [(SetKind::Wheels, "wheels"), (SetKind::Cmgs, "CMGs")] {
             match lasting(kind) {
                 Some((low, high)) => {
                     text += &format!(
@@ -110,7 +110,7 @@ fn name(kind: SetKind) -> &'static str {
         SetKind::Ideal => "The reference",
         SetKind::Actuator => "The vehicle's ideal actuator",
         SetKind::Wheels => "Wheels",
-        SetKind::Cmgs => "Cmgs",
+        SetKind::Cmgs => "CMGs",
         SetKind::Thrusters => "Thrusters",
         SetKind::Hybrid => "CMGs or wheels with thrusters",
         SetKind::Nothing => "Nothing",

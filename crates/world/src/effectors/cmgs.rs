@@ -5,7 +5,7 @@
 //! along the gimbal axis. Rotor and gimbal count as round about the gimbal axis, so that turning the
 //! gimbal does not change the inertia of the base.
 
-use super::{Effector, GimbalMotors, Load, Stage, Told};
+use super::{Effector, GimbalMotors, Load, PeriodCommand, Stage};
 use crate::command::Saturation;
 use crate::failure::Failure;
 use crate::source::Source;
@@ -90,7 +90,7 @@ impl<const J: usize> Effector<J> for Cmgs {
     }
     /// The rates of the gimbals for a period, each within its limit, and whose motor cannot follow. What
     /// is not a number asks for none.
-    fn command(&mut self, told: &Told<'_>, own: &[f64], cut: &mut Vec<Saturation>) {
+    fn command(&mut self, told: &PeriodCommand<'_>, own: &[f64], cut: &mut Vec<Saturation>) {
         for (i, cmg) in self.list.iter().enumerate() {
             let wanted = told.actuators.gimbal_rate[i];
             let wanted = if wanted.is_nan() { 0.0 } else { wanted };
@@ -176,7 +176,7 @@ mod tests {
         let (mut actuators, mut cut) = (ActuatorCommand::default(), vec![]);
         (actuators.gimbal_rate[0], actuators.gimbal_rate[1]) = (f64::NAN, 0.1);
         let (w_NB_B, is_fed) = (Vec3::zero(), false);
-        let told = Told { actuators: &actuators, w_NB_B, gone: 0.0, period: 0.1, is_fed };
+        let told = PeriodCommand { actuators: &actuators, w_NB_B, gone: 0.0, period: 0.1, is_fed };
         Effector::<1>::command(&mut cmgs, &told, &[0.0; 4], &mut cut);
         assert_eq!(cmgs.wanted[..2], [0.0, 0.1]);
         assert!(cut.is_empty(), "{cut:?}");

@@ -55,7 +55,7 @@ pub trait Effector<const J: usize>: Debug + Send + Sync {
     /// does is not smooth.
     fn breakpoints(&self, _period_start: f64, _between: (f64, f64), _each: &mut dyn FnMut(f64)) {}
     /// Take the commands of a control period; what a limit cuts is noted.
-    fn command(&mut self, _told: &Told<'_>, _own: &[f64], _cut: &mut Vec<Saturation>) {}
+    fn command(&mut self, _told: &PeriodCommand<'_>, _own: &[f64], _cut: &mut Vec<Saturation>) {}
     /// What it says of itself.
     fn read(&self, _own: &[f64], _w_NB_B: Vec3<f64>, _readings: &mut ActuatorReadings<f64>) {}
     /// Torques of gimbal motors (N·m) while the base accelerates by `wdot_NB_B` (rad/s²).
@@ -91,7 +91,7 @@ pub struct GimbalMotors {
 
 /// What an effector is told for a control period.
 #[derive(Debug, Clone, Copy)]
-pub struct Told<'a> {
+pub struct PeriodCommand<'a> {
     /// What the flight computer says.
     pub actuators: &'a ActuatorCommand<f64>,
     /// Turning rate of the base, base axes (rad/s).

@@ -1,7 +1,7 @@
 //! Thrusters as they behave: pulses that rise and fall evenly, none shorter than can be, each a
 //! little different.
 
-use super::{Effector, Load, Stage, Told};
+use super::{Effector, Load, PeriodCommand, Stage};
 use crate::command::Saturation;
 use crate::failure::Failure;
 use crate::noise::Noise;
@@ -60,7 +60,7 @@ impl Thrusters {
     }
     /// What a thruster does in a period, of its valve told to be open for `on` (s); whether that is as it
     /// was told, and whether it missed its propellant.
-    fn pulse(&mut self, i: usize, on: f64, told: &Told<'_>) -> (Pulse, bool, bool) {
+    fn pulse(&mut self, i: usize, on: f64, told: &PeriodCommand<'_>) -> (Pulse, bool, bool) {
         let (thruster, before) = (&self.list[i], self.pulses[i]);
         let is_open = before.shuts > told.gone;
         let open_for = if is_open { before.open_for + told.gone } else { 0.0 };
@@ -99,7 +99,7 @@ impl<const J: usize> Effector<J> for Thrusters {
         let all = self.list.iter().zip(&self.pulses).flat_map(|(t, pulse)| pulse.breakpoints(t));
         all.filter(|t| *t > from + near && *t < to - near).for_each(each);
     }
-    fn command(&mut self, told: &Told<'_>, _own: &[f64], cut: &mut Vec<Saturation>) {
+    fn command(&mut self, told: &PeriodCommand<'_>, _own: &[f64], cut: &mut Vec<Saturation>) {
         let mut is_empty = false;
         for i in 0..self.list.len() {
             let (pulse, is_as_told, is_missed) = self.pulse(i, told.actuators.thruster_on[i], told);

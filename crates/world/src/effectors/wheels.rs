@@ -4,7 +4,7 @@
 //! `h = J (Ω + a·w)`: it changes only by what motor and bearing give, however the base turns. Its
 //! inertia about its axis is therefore not part of the base's.
 
-use super::{Effector, Load, Stage, Told};
+use super::{Effector, Load, PeriodCommand, Stage};
 use crate::command::Saturation;
 use crate::failure::Failure;
 use crate::source::Source;
@@ -108,7 +108,7 @@ impl<const J: usize> Effector<J> for Wheels {
         let M_F_F = SpatialInertia { rotational: taken, ..SpatialInertia::zero() };
         Some(MassProperties { M_F_F, I_parts_F: taken })
     }
-    fn command(&mut self, told: &Told<'_>, own: &[f64], cut: &mut Vec<Saturation>) {
+    fn command(&mut self, told: &PeriodCommand<'_>, own: &[f64], cut: &mut Vec<Saturation>) {
         for i in 0..self.list.len() {
             if self.dead[i] {
                 continue;
@@ -159,7 +159,8 @@ mod tests {
             let (mut actuators, mut cut) = (ActuatorCommand::default(), vec![]);
             (actuators.wheel_torque[0], actuators.wheel_torque[1]) = (f64::NAN, 0.1);
             let (w_NB_B, is_fed) = (Vec3::zero(), false);
-            let told = Told { actuators: &actuators, w_NB_B, gone: 0.0, period: 0.1, is_fed };
+            let told =
+                PeriodCommand { actuators: &actuators, w_NB_B, gone: 0.0, period: 0.1, is_fed };
             Effector::<1>::command(&mut wheels, &told, &[0.0; 2], &mut cut);
             assert_eq!(wheels.motor[0], 0.0);
             assert!((wheels.motor[1] - 0.1).abs() < 1e-16, "{}", wheels.motor[1]);
