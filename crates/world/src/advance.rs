@@ -3,7 +3,6 @@
 
 use crate::integrate::{Stepper, add_compensated, equal_steps};
 use crate::scene::Scene;
-use crate::stage::Places;
 
 /// A number that is no longer finite.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -25,28 +24,22 @@ impl<const J: usize> Scene<J> {
     /// If a number is no longer finite.
     pub fn advance(&mut self, period: f64) -> Result<(), NonFinite> {
         let (mut from, mut passed) = (0.0, f64::NEG_INFINITY);
-        let mut places = self.places.take().unwrap_or_default();
         // In stretches in which nothing breaks: steps that do not reach over a breakpoint keep their
         // order.
         loop {
             let next = self.next_breakpoint(passed, period);
             let to = next.map_or(period, |at| at - self.clock.into_period);
             self.clock.within = self.clock.into_period + 0.5 * (from + to);
-            let done = match self.stepper {
-                Stepper::Fixed { step } => self.advance_evenly(&mut places, (from, to), step),
+            match self.stepper {
+                Stepper::Fixed { step } => self.advance_evenly((from, to), step)?,
                 Stepper::Adaptive { tolerance } => {
-                    self.advance_adaptively(&mut places, (from, to), tolerance)
+                    self.advance_adaptively((from, to), tolerance)?
                 }
-            };
-            if done.is_err() {
-                self.places.set(Some(places));
-                return done;
             }
             self.burn(self.clock.into_period + from, self.clock.into_period + to);
             let Some(breakpoint) = next else { break };
             (from, passed) = (to, breakpoint);
         }
-        self.places.set(Some(places));
         self.clock.into_period += period;
         add_compensated(&mut self.clock.time, period, &mut self.clock.carry);
         self.expel_propellant();
@@ -69,12 +62,7 @@ impl<const J: usize> Scene<J> {
         first
     }
 
-    fn advance_evenly(
-        &mut self,
-        places: &mut Places<J>,
-        (mut from, to): (f64, f64),
-        step: f64,
-    ) -> Result<(), NonFinite> {
+    fn advance_evenly(&mut self, (mut from, to): (f64, f64), step: f64) -> Result<(), NonFinite> {
         let into_period = self.clock.into_period;
         // An event ends a step before its time: what is left is divided anew.
         'restart: loop {
@@ -85,10 +73,10 @@ impl<const J: usize> Scene<J> {
                 if self.has_events() {
                     self.note_before_step(t0);
                 }
-                self.step_evenly(places, t0, h)?;
+                self.step_evenly(t0, h)?;
                 done += 1.0;
                 if self.has_events() {
-                    let gone = self.stop_at_events(places, (t0, h), Self::step_evenly)?;
+                    let gone = self.stop_at_events((t0, h), Self::step_evenly)?;
                     if gone < h {
                         from = t0 + gone - into_period;
                         continue 'restart;
@@ -102,9 +90,11 @@ impl<const J: usize> Scene<J> {
     }
 
     /// One step of fixed length from where the scene stands.
-    fn step_evenly(&mut self, places: &mut Places<J>, t0: f64, h: f64) -> Result<(), NonFinite> {
+    fn step_evenly(&mut self, t0: f64, h: f64) -> Result<(), NonFinite> {
         let (mut method, clock) = (std::mem::take(&mut self.runge_kutta), self.clock);
-        let d = method.step(h, |t, d, rates| self.rates(places, (&clock, t0 + t), d, rates));
+        let mut places = self.places.take().unwrap_or_default();
+        let d = method.step(h, |t, d, rates| self.rates(&mut places, (&clock, t0 + t), d, rates));
+        self.places.set(Some(places));
         let accepted = self.accept(d, t0 + h);
         self.runge_kutta = method;
         accepted
@@ -112,7 +102,6 @@ impl<const J: usize> Scene<J> {
 
     fn advance_adaptively(
         &mut self,
-        places: &mut Places<J>,
         (from, to): (f64, f64),
         tolerance: f64,
     ) -> Result<(), NonFinite> {
@@ -123,7 +112,7 @@ impl<const J: usize> Scene<J> {
             let rest = end - t0;
             let last = h >= rest * (1.0 - 1e-12);
             let trial = if last { rest } else { h };
-            let size = (self.try_step(places, t0, trial) / tolerance).max(1e-10);
+            let size = (self.try_step(t0, trial) / tolerance).max(1e-10);
             // Order 5 in the step asks for the fifth root. The fourth finds the step as well, and
             // square roots are the same bits on every machine.
             let factor = (0.9 / size.sqrt().sqrt()).clamp(0.2, 5.0);
@@ -135,8 +124,8 @@ impl<const J: usize> Scene<J> {
                 self.accept_tried(ends)?;
                 let mut gone = trial;
                 if self.has_events() {
-                    gone = self.stop_at_events(places, (t0, trial), |scene, places, t0, h| {
-                        scene.try_step(places, t0, h);
+                    gone = self.stop_at_events((t0, trial), |scene, t0, h| {
+                        scene.try_step(t0, h);
                         scene.accept_tried(t0 + h)
                     })?;
                 }
@@ -153,9 +142,11 @@ impl<const J: usize> Scene<J> {
     }
 
     /// Try a step from where the scene stands; its estimated error.
-    fn try_step(&mut self, places: &mut Places<J>, t0: f64, h: f64) -> f64 {
+    fn try_step(&mut self, t0: f64, h: f64) -> f64 {
         let (mut method, clock) = (std::mem::take(&mut self.dormand_prince), self.clock);
-        method.step(h, |t, d, rates| self.rates(places, (&clock, t0 + t), d, rates));
+        let mut places = self.places.take().unwrap_or_default();
+        method.step(h, |t, d, rates| self.rates(&mut places, (&clock, t0 + t), d, rates));
+        self.places.set(Some(places));
         let error = method.largest_error();
         self.dormand_prince = method;
         error

@@ -3,7 +3,6 @@
 
 use crate::advance::NonFinite;
 use crate::scene::Scene;
-use crate::stage::Places;
 use crate::system::System;
 use std::fmt;
 use wrasse_spatial::Quat;
@@ -124,9 +123,8 @@ impl<const J: usize> Scene<J> {
     /// of them its time is known to the last bits.
     pub(crate) fn stop_at_events(
         &mut self,
-        places: &mut Places<J>,
         (t0, h): (f64, f64),
-        step: impl Fn(&mut Self, &mut Places<J>, f64, f64) -> Result<(), NonFinite>,
+        step: impl Fn(&mut Self, f64, f64) -> Result<(), NonFinite>,
     ) -> Result<f64, NonFinite> {
         let into_period = std::mem::replace(&mut self.clock.into_period, t0 + h);
         if !self.has_crossed() {
@@ -141,12 +139,12 @@ impl<const J: usize> Scene<J> {
                 break;
             }
             self.return_to_start_of_step();
-            step(self, places, t0, middle)?;
+            step(self, t0, middle)?;
             self.clock.into_period = t0 + middle;
             if self.has_crossed() { after = middle } else { before = middle }
         }
         self.return_to_start_of_step();
-        step(self, places, t0, after)?;
+        step(self, t0, after)?;
         self.clock.into_period = t0 + after;
         self.let_happen();
         self.clock.into_period = into_period;

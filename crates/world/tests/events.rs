@@ -96,6 +96,36 @@ fn what_happens_may_couple_and_uncouple_systems() {
     }
 }
 
+/// An event may look at states and forces, and add a system: it flies on from there.
+#[test]
+fn what_happens_may_add_a_system() {
+    for stepper in STEPPERS {
+        let mut scene: Scene<1> = Scene::new(stepper);
+        let parent = scene.add_body(&ball(0.0, 0.7));
+        scene.add_event(Event {
+            value: Box::new(move |scene| {
+                let still = scene.dynamics(parent).nudot.base.linear.norm();
+                scene.state(parent).X_NB.translation.x + still - 1.0
+            }),
+            crossing: Crossing::Rising,
+            then: Box::new(|scene| {
+                scene.add_body(&ball(1.0, 0.2));
+            }),
+        });
+        for _ in 0..30 {
+            scene.begin_period();
+            scene.advance(0.1).unwrap();
+        }
+        let child = scene.systems().last().unwrap();
+        assert_ne!(child, parent);
+        // From 1 m at 0.2 m/s, since 1/0.7 s.
+        let expected = 1.0 + 0.2 * (3.0 - 1.0 / 0.7);
+        let off = scene.state(child).X_NB.translation.x - expected;
+        assert!(off.abs() < 1e-14, "{off:e}");
+        assert_eq!(scene.dynamics(child).nudot.base.linear.norm(), 0.0);
+    }
+}
+
 fn speed(scene: &Scene<1>, id: SystemId) -> f64 {
     scene.momentum(id).0.x / 2.0
 }
