@@ -3,12 +3,13 @@
 
 use crate::flight::Flight;
 use crate::mission::Case;
-use crate::observe::{Needs, Observation, Track, Truth, observe};
+use crate::observe::{Observation, Track, Truth, observe};
 use crate::outcome::{DemandSample, End, Event, Snapshot, Telemetry};
 use crate::overlap::Overlap;
 use crate::picture::snapshot;
 use crate::plan::Plan;
 use crate::quantity::Watch;
+use crate::signals::Needs;
 use crate::telemetry::Recorder;
 use wrasse_world::Stepper;
 

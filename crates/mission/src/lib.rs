@@ -45,6 +45,7 @@ mod sampled_loops;
 mod sampling;
 mod saturations;
 mod sensing;
+mod signals;
 mod solid_shape;
 mod telemetry;
 mod telling;

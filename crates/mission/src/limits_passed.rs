@@ -3,7 +3,7 @@
 
 use crate::mission::Case;
 use crate::observe::Observation;
-use crate::quantity::place;
+use crate::signals::CMG_SINGULARITY;
 use wrasse_world::BaseAttitude;
 
 /// A limit that was passed: said once in each phase.
@@ -59,7 +59,7 @@ pub(crate) fn limits_passed(case: &Case, seen: &Observation) -> Vec<(Passed, Str
             passed.push((Passed::Effort(j), text));
         }
     }
-    let distance = seen.values[place("cmgs.singularity_distance")];
+    let distance = seen.values[CMG_SINGULARITY];
     if distance < SINGULAR {
         let text = format!(
             "the CMGs are all but singular, det(A Aᵀ) is {distance:.4}: torque about one axis takes high \

@@ -263,6 +263,11 @@ impl Case {
     pub(crate) fn flight_phases(&self) -> Vec<Phase<f64, JOINTS>> {
         self.phases.iter().map(|p| p.phase).collect()
     }
+    /// Whether the fitted equipment can take up momentum.
+    pub(crate) fn stores_momentum(&self) -> bool {
+        let actuators = &self.equipment.actuators;
+        !(actuators.wheels.is_empty() && actuators.cmgs.is_empty())
+    }
     pub(crate) fn joint_name(&self, j: usize) -> &str {
         self.vehicle.joint_names.get(j).map_or("?", String::as_str)
     }

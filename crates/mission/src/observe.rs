@@ -1,20 +1,19 @@
 //! What is seen of the truth after each control period.
 
 use crate::arm_shape::{reach_margin, smallest_singular_value};
-use crate::asked::{ActuatorDemand, gimbal_motors, gimbal_rates, wheel_speeds};
+use crate::asked::{ActuatorDemand, gimbal_motors};
 use crate::case_world::CaseWorld;
 use crate::mission::Case;
-use crate::quantity::FIXED_COUNT;
 use crate::read_base::Turning;
+use crate::signals::{MOST, Needs, Seen, values};
 use wrasse_dynamics::{
-    BodyId, Dynamics, Frame, Generalized, JointKind, Kinematics, Outside, State, inverse_dynamics,
-    kinematics, kinetic_energy, mount_reaction,
+    BodyId, Dynamics, Frame, Generalized, Kinematics, Outside, State, inverse_dynamics, kinematics,
+    kinetic_energy, mount_reaction,
 };
 use wrasse_flight::{Axes, Command, FlightComputer};
 use wrasse_hardware::ActuatorReadings;
 use wrasse_spatial::{Mat3, Pose, Quat, SpatialForce, SpatialVelocity, Vec3};
 use wrasse_vehicle::JOINTS;
-use wrasse_world::BaseAttitude;
 
 /// The truth at one instant.
 #[derive(Debug, Clone)]
@@ -37,54 +36,9 @@ pub(crate) struct Observation {
     pub(crate) base_shift: Vec3<f64>,
     /// What wheels, CMGs and thrusters say.
     pub(crate) readings: ActuatorReadings<f64>,
-    /// Values in the order of the quantities; NaN behind the last.
-    pub(crate) values: [f64; VALUES],
+    /// Values of the signals, in the order of the quantities; NaN behind the last.
+    pub(crate) values: [f64; MOST],
 }
-
-/// What is looked at beside where everything is: the rest costs time, and is NaN where it is not needed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[allow(clippy::struct_excessive_bools, reason = "each is a need of its own")]
-pub(crate) struct Needs {
-    /// Accelerations, forces of the joints, torque on the base.
-    pub(crate) dynamics: bool,
-    /// Forces at the mounts, and what the base feels of the arms.
-    pub(crate) mounts: bool,
-    /// How near the arm is to its reach and to a singular posture.
-    pub(crate) shape: bool,
-    pub(crate) energy: bool,
-    /// What wheels, CMGs and tank say of themselves.
-    pub(crate) readings: bool,
-    /// Torque of the gimbals' motors.
-    pub(crate) motors: bool,
-}
-
-impl Needs {
-    /// Everything.
-    pub(crate) const ALL: Self = Self {
-        dynamics: true,
-        mounts: true,
-        shape: true,
-        energy: true,
-        readings: true,
-        motors: true,
-    };
-    /// What these quantities need.
-    pub(crate) fn of<'a>(names: &(impl Iterator<Item = &'a str> + Clone)) -> Self {
-        let any = |parts: &[&str]| names.clone().any(|name| parts.iter().any(|p| name.contains(p)));
-        let mounts = any(&["mount."]);
-        Self {
-            mounts,
-            dynamics: mounts || any(&["effort", "attitude.torque"]),
-            shape: any(&["arm."]),
-            energy: any(&["energy"]),
-            readings: any(&["attitude.momentum", "wheels.", "cmgs.", "thrusters."]),
-            motors: any(&["cmgs.motor_torque"]),
-        }
-    }
-}
-
-/// Most quantities: those of any vehicle, and four for each joint.
-const VALUES: usize = FIXED_COUNT + 4 * JOINTS;
 
 /// The line that the tool follows, for errors along and across it.
 #[derive(Debug, Clone, Copy, Default)]
@@ -94,7 +48,7 @@ pub(crate) struct Track {
     last: Vec3<f64>,
     direction: Option<Vec3<f64>>,
     /// Nothing is driven: there is nowhere that the tool should be, and nothing is steered.
-    coasting: bool,
+    pub(crate) coasting: bool,
     /// Attitude of the base, and the sum of its small turns, inertial axes (rad).
     attitude: Option<Quat<f64>>,
     turns_N: Vec3<f64>,
@@ -141,7 +95,7 @@ impl Track {
         if turns == 0.0 { shortest } else { axis * (angle + turns * std::f64::consts::TAU) }
     }
     /// Signed error along the line and error across it (m); NaN where there is no line.
-    fn split(&self, error: Vec3<f64>) -> (f64, f64) {
+    pub(crate) fn split(&self, error: Vec3<f64>) -> (f64, f64) {
         let direction = self.direction.filter(|_| !self.coasting);
         direction.map_or((f64::NAN, f64::NAN), |direction| {
             let along = error.dot(direction);
@@ -202,11 +156,11 @@ pub(crate) fn observe(
         if needs.mounts { mounts(&k, &dynamics) } else { ((nan, nan), nothing) };
     let readings =
         if needs.readings { world.actuator_readings() } else { ActuatorReadings::default() };
-    let mut seen = Observation {
+    let seen = Observation {
         dynamics,
         torque_B: match case.turning {
             _ if !needs.dynamics => nothing,
-            Turning::Fitted if stores_momentum(case) => world.internal_torque_B(),
+            Turning::Fitted if case.stores_momentum() => world.internal_torque_B(),
             // Thrusters come in pulses: there is no torque at an instant that says anything.
             Turning::Fitted => nothing,
             Turning::Ideal(_) => world.actuator_torque_B() + dynamics.force.base.torque,
@@ -222,27 +176,23 @@ pub(crate) fn observe(
         V_NE: k.velocity(&tool),
         base_turn: track.counted_turn(&turned, &start.rotation),
         base_shift: state.X_NB.translation - start.translation,
-        values: [nan; VALUES],
+        values: [nan; MOST],
         state,
     };
-    let shape = if needs.shape { shape(case, jacobian, &k, &tool) } else { (nan, nan) };
-    let energy = if needs.energy { there(kinetic_energy(&k)) } else { nan };
     let asked = ActuatorDemand::of(case, command, world, &seen);
-    let of_any = values(case, &seen, track, &asked, mounts, shape, energy);
-    let motors = if needs.motors { motor_torque(case, world) } else { nan };
-    let equipped = of_equipment(case, (command, track), &seen, &asked, estimate_error, motors);
-    let of_joints = world.robot().joints().flat_map(|j| {
-        [
-            seen.state.q[j] - case.start.q[j],
-            command.set_points[j].position - case.start.q[j],
-            asked.rates[j],
-            asked.efforts[j],
-        ]
-        .map(there)
+    let values = values(&Seen {
+        case,
+        command,
+        track,
+        truth: &seen,
+        asked: &asked,
+        estimate_error,
+        mounts,
+        shape: if needs.shape { shape(case, jacobian, &k, &tool) } else { (nan, nan) },
+        energy: if needs.energy { there(kinetic_energy(&k)) } else { nan },
+        motors: if needs.motors { motor_torque(case, world) } else { nan },
     });
-    let all = of_any.into_iter().chain(equipped).chain(of_joints);
-    seen.values.iter_mut().zip(all).for_each(|(to, value)| *to = value);
-    seen
+    Observation { values, ..seen }
 }
 
 /// How much farther the tool could reach (m), and how far the arm is from a singular posture (–).
@@ -280,45 +230,6 @@ fn stored(case: &Case, readings: &ActuatorReadings<f64>) -> Vec3<f64> {
     actuators.cmg_momentum(&readings.gimbal_angle) + actuators.wheel_momentum(&readings.wheel_speed)
 }
 
-/// Whether the fitted equipment can take up momentum.
-fn stores_momentum(case: &Case) -> bool {
-    let actuators = &case.equipment.actuators;
-    !(actuators.wheels.is_empty() && actuators.cmgs.is_empty())
-}
-
-/// Values of the quantities of wheels, CMGs, thrusters and sensors, in their order; NaN where there is
-/// none.
-fn of_equipment(
-    case: &Case,
-    (command, track): (&Command<f64, JOINTS>, &Track),
-    seen: &Observation,
-    asked: &ActuatorDemand,
-    estimate_error: f64,
-    motor_torque: f64,
-) -> [f64; 8] {
-    let (actuators, readings) = (&case.equipment.actuators, &seen.readings);
-    let use_of = |(x, limit): (f64, f64)| x.abs() / limit;
-    let wheels = wheel_speeds(case, asked.torque_cut_B, readings).map(use_of);
-    let cmgs = gimbal_rates(case, command, asked.torque_cut_B, readings).map(use_of);
-    let fitted = case.turning == Turning::Fitted;
-    let steered = fitted && !actuators.cmgs.is_empty() && !track.coasting;
-    let missing = |is_there: bool, x: Vec3<f64>| if is_there { there(x.norm()) } else { f64::NAN };
-    let tank = actuators.tank.map_or(f64::NAN, |tank| tank.propellant);
-    [
-        missing(case.base == BaseAttitude::Controlled, asked.torque_cut_B),
-        missing(
-            fitted && case.setup.base.position_hold.is_some(),
-            command.allocation.missing.force,
-        ),
-        estimate_error,
-        largest(wheels),
-        largest(cmgs),
-        motor_torque,
-        if steered { there(command.allocation.singularity) } else { f64::NAN },
-        tank - readings.propellant,
-    ]
-}
-
 /// Largest force (N) and moment (N·m) at a mount, and the torque about the base's centre of mass by
 /// which the base carries all arms (base axes).
 fn mounts(
@@ -337,70 +248,12 @@ fn mounts(
     (largest, X_NB.rotation.transpose_mul(total))
 }
 
-/// Values of the quantities of any vehicle, in their order.
-fn values(
-    case: &Case,
-    seen: &Observation,
-    track: &Track,
-    asked: &ActuatorDemand,
-    mounts: (f64, f64),
-    shape: (f64, f64),
-    energy: f64,
-) -> [f64; FIXED_COUNT - 8] {
-    let (along, across) = track.split(seen.tool_error.0);
-    let cut_B = asked.torque_cut_B;
-    // Thrusters alone have no torque at an instant, and store nothing; a free base has nobody who could.
-    let turned = case.base != BaseAttitude::Free;
-    let holds = turned && (case.turning != Turning::Fitted || stores_momentum(case));
-    let given = |x: Vec3<f64>| (holds && !x.norm().is_nan()).then_some(x);
-    let off = |error: Vec3<f64>| if track.coasting { f64::NAN } else { there(error.norm()) };
-    let use_of = |value: &dyn Fn(usize) -> (f64, Option<f64>)| {
-        let shares = (0..case.vehicle.limits.len()).filter_map(|j| {
-            let (x, limit) = value(j);
-            limit.map(|limit| x.abs() / limit)
-        });
-        largest(shares)
-    };
-    let margin = |kind: JointKind| {
-        let joints = case.vehicle.limits.iter().enumerate();
-        let of_kind = joints.filter(|(j, _)| case.vehicle.robot.joint(*j).kind == kind);
-        let margins = of_kind.filter_map(|(j, limits)| {
-            let q = seen.state.q[j];
-            limits.travel.map(|(lower, upper)| (q - lower).min(upper - q))
-        });
-        -largest(margins.map(|margin| -margin))
-    };
-    [
-        off(seen.tool_error.0),
-        along,
-        across,
-        off(seen.tool_error.1),
-        there(seen.V_NE.linear.norm()),
-        there(seen.V_NE.angular.norm()),
-        there(seen.base_turn.norm()),
-        there(seen.base_shift.norm()),
-        there(seen.state.V_NB_B.angular.norm()),
-        use_of(&|j| (asked.rates[j], case.vehicle.limits[j].rate)),
-        use_of(&|j| (asked.efforts[j], case.vehicle.limits[j].effort)),
-        margin(JointKind::Revolute),
-        margin(JointKind::Prismatic),
-        shape.0,
-        shape.1,
-        mounts.0,
-        mounts.1,
-        // Of what is given and what is cut: what was asked for. What is stored goes the other way.
-        given(seen.torque_B).map_or(f64::NAN, |torque_B| there((torque_B + cut_B).norm())),
-        given(seen.stored_B).map_or(f64::NAN, |h_B| there((h_B - cut_B * case.period()).norm())),
-        energy,
-    ]
-}
-
 /// The value of a quantity that is there: one that is no number is beyond every limit.
-fn there(x: f64) -> f64 {
+pub(crate) fn there(x: f64) -> f64 {
     if x.is_nan() { f64::INFINITY } else { x }
 }
 
 /// The largest of some values; infinite if one is no number, NaN of none.
-fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+pub(crate) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().map(there).fold(f64::NAN, f64::max)
 }

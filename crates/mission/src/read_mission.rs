@@ -6,7 +6,7 @@ use crate::folder_name::wrong_with_folder_name;
 use crate::format::MissionFile;
 use crate::mission::{Case, Mission, PayloadCase, PhaseCase, Study};
 use crate::phase_format::PhaseFile;
-use crate::quantity::{Quantity, quantities};
+use crate::quantity::Quantity;
 use crate::read_base::{
     Turning, applied_wrenches, base_control, doubt_idle_units, equipment, failures, navigation,
     sensors, turning,
@@ -19,6 +19,7 @@ use crate::reading::Reading;
 use crate::requirement::Requirement;
 use crate::sampled_loops::check_loops;
 use crate::sampling::{Sampling, check_sampling};
+use crate::signals::quantities;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -229,7 +229,7 @@ fn all_metrics(quantities: &[Quantity]) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::quantity::quantities;
+    use crate::signals::quantities;
 
     fn parse(text: &str) -> Result<Requirement, BadRequirement> {
         let phases = ["reach".to_owned(), "hold on".to_owned()];

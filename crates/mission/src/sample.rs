@@ -7,11 +7,12 @@ use crate::books::ledger;
 use crate::dispersion::draws;
 use crate::flight::Flight;
 use crate::mission::{Case, Mission};
-use crate::observe::{Needs, Track, Truth, observe};
+use crate::observe::{Track, Truth, observe};
 use crate::outcome::{End, Verdict};
 use crate::plan::{Plan, plan};
 use crate::quantity::Watch;
 use crate::requirement::Requirement;
+use crate::signals::Needs;
 use std::borrow::Cow;
 use std::fmt::Write;
 
@@ -142,10 +143,9 @@ pub fn plan_samples(mission: &Mission, case: usize) -> SamplePlan<'_> {
     // Two requirements of one quantity: it counts once.
     watched.sort_unstable();
     watched.dedup();
-    let names = watched.iter().map(|&i| case.quantities[i].name.as_str());
     // The planning sees what the laws believe and where everything is; of the rest it knows nothing.
     let is_seen = case.dispersions.iter().any(|d| d.known || !d.target.can_be_known());
-    SamplePlan { case, plan: (!is_seen).then(|| plan(case)), needs: Needs::of(&names), watched }
+    SamplePlan { case, plan: (!is_seen).then(|| plan(case)), needs: Needs::of(&watched), watched }
 }
 
 /// What a flight for its verdicts comes to.

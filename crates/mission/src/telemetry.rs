@@ -3,8 +3,8 @@
 use crate::mission::Case;
 use crate::observe::Observation;
 use crate::outcome::{Channel, Telemetry};
-use crate::quantity::place;
 use crate::read_base::Turning;
+use crate::signals::SIGNALS;
 use wrasse_dynamics::JointKind;
 use wrasse_spatial::Vec3;
 use wrasse_world::{Ledger, Source};
@@ -47,6 +47,7 @@ impl Recorder {
     pub(crate) fn sample(&mut self, time: f64, case: &Case, seen: &Observation, ledger: &Ledger) {
         self.telemetry.time.push(time);
         self.next = 0;
+        self.signals(case, seen);
         self.tool_and_base(seen);
         self.joints(case, seen);
         self.attitude(case, seen);
@@ -54,14 +55,17 @@ impl Recorder {
         self.books(ledger);
     }
 
+    /// The signals that the table draws.
+    fn signals(&mut self, case: &Case, seen: &Observation) {
+        for (signal, value) in SIGNALS.iter().zip(seen.values) {
+            let Some(plot) = signal.plot.as_ref().filter(|plot| (plot.shown)(case)) else {
+                continue;
+            };
+            self.put(plot.title, plot.label, signal.name, plot.unit, value * plot.per_si);
+        }
+    }
+
     fn tool_and_base(&mut self, seen: &Observation) {
-        let v = &seen.values;
-        let plot = "Tool error";
-        self.put(plot, "distance", "tool.position_error", "mm", v[0] * 1e3);
-        self.put(plot, "along the way", "tool.along_track_error", "mm", v[1] * 1e3);
-        self.put(plot, "across it", "tool.lateral_error", "mm", v[2] * 1e3);
-        let degrees = v[3].to_degrees();
-        self.put("Tool orientation error", "angle", "tool.attitude_error", "deg", degrees);
         self.put_vector("Tool position", "", "tool.position", "m", seen.X_NE.translation);
         let turn = seen.base_turn.map(f64::to_degrees);
         self.put_vector("Base rotation since the start", "", "base.rotation", "deg", turn);
@@ -110,20 +114,10 @@ impl Recorder {
             self.put(plot, "limit", "attitude.momentum_limit", "N·m·s", limit);
             self.put(plot, "-limit", "attitude.momentum_limit_below", "N·m·s", -limit);
         }
-        self.put(
-            "Reach left",
-            "to the stretched arm",
-            "arm.reach_margin",
-            "mm",
-            seen.values[13] * 1e3,
-        );
-        let plot = "Distance from a singular posture";
-        self.put(plot, "smallest singular value", "arm.singularity_distance", "–", seen.values[14]);
     }
 
     fn equipment(&mut self, case: &Case, seen: &Observation) {
         let (equipment, read) = (&case.equipment, &seen.readings);
-        let value = |name: &str| seen.values[place(name)];
         for (i, name) in equipment.wheel_names.iter().enumerate() {
             let per_minute = read.wheel_speed[i] * 30.0 / std::f64::consts::PI;
             self.put("Wheel speeds", name, &format!("wheel.{name}.speed"), "rpm", per_minute);
@@ -135,25 +129,6 @@ impl Recorder {
         for (i, name) in equipment.cmg_names.iter().enumerate() {
             let degrees = read.gimbal_rate[i].to_degrees();
             self.put("Gimbal rates", name, &format!("cmg.{name}.rate"), "deg/s", degrees);
-        }
-        if !equipment.cmg_names.is_empty() {
-            let plot = "Distance of the CMGs from a singular setting";
-            let measure = value("cmgs.singularity_distance");
-            self.put(plot, "det(A Aᵀ)", "cmgs.singularity_distance", "–", measure);
-        }
-        if equipment.actuators.tank.is_some() {
-            let grams = value("thrusters.propellant_used") * 1e3;
-            self.put("Propellant used", "used", "thrusters.propellant_used", "g", grams);
-        }
-        if case.turning == Turning::Fitted {
-            let missing = value("attitude.torque_missing");
-            let plot = "Torque that was wanted and not given";
-            self.put(plot, "missing", "attitude.torque_missing", "N·m", missing);
-        }
-        if case.sensors.is_some_and(|s| s.attitude.is_some()) {
-            let error = value("attitude.estimate_error").to_degrees() * 3600.0;
-            let plot = "Error of the attitude estimate";
-            self.put(plot, "angle", "attitude.estimate_error", "arcsec", error);
         }
     }
 
