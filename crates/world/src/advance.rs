@@ -33,7 +33,7 @@ impl<const J: usize> Scene<J> {
             match self.stepper {
                 Stepper::Fixed { step } => self.advance_evenly((from, to), step)?,
                 Stepper::Adaptive { tolerance } => {
-                    self.advance_adaptively((from, to), tolerance)?
+                    self.advance_adaptively((from, to), tolerance)?;
                 }
             }
             self.burn(self.clock.into_period + from, self.clock.into_period + to);
