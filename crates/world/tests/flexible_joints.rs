@@ -141,6 +141,33 @@ fn flexible_joints_swing_at_the_eigenfrequencies_of_spong() {
     assert!(expected[..J].iter().all(|e| e.abs() < 1e-9 * expected[2 * J - 1]));
 }
 
+/// A torque turns the motor, and reaches the link through the transmission alone.
+#[test]
+fn a_torque_reaches_the_link_through_the_transmission_alone() {
+    let still = at_rest();
+    let accelerations = |effort: f64, twist: f64| {
+        let flexible =
+            |joint| FlexibleJoint { joint, stiffness: 300.0, damping: 0.0, motor_inertia: 0.5 };
+        let mut world = world(still, 0.001);
+        let id = world.id;
+        world.add_effector(id, Box::new(FlexibleJoints((0..J).map(flexible).collect())));
+        let own: Vec<f64> = (0..J).flat_map(|_| [twist, 0.0]).collect();
+        world.set_effector_variables(id, 0, &own);
+        let drives = [Drive::Effort(effort); J];
+        world.command(&drives, Vec3::zero(), &ActuatorCommand::default(), 0.001);
+        let now = world.dynamics().nudot.joints;
+        world.advance(0.001).unwrap();
+        (now, world.effector_variables(id, 0)[1])
+    };
+    // Nothing is twisted: the links feel nothing, the motor gains 2/0.5 rad/s².
+    let (links, motor) = accelerations(2.0, 0.0);
+    assert_eq!(links, [0.0; J]);
+    assert!((motor - 2.0 / 0.5 * 0.001).abs() < 1e-6, "{motor}");
+    // Twisted, the links feel the spring, whatever the torque.
+    assert_eq!(accelerations(2.0, 0.01).0, accelerations(-5.0, 0.01).0);
+    assert!(accelerations(0.0, 0.01).0.iter().any(|x| x.abs() > 0.01));
+}
+
 /// A sprung panel gives its energy back and forth; with a damper it comes to rest. The ledger closes.
 #[test]
 fn springs_and_dampers_are_in_the_ledger() {
