@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use wrasse_document::{Complaint, Document, visible};
 use wrasse_mission::read_mission;
+use wrasse_rehearsal::sampled_loops;
 use wrasse_study::study_complaints;
 use wrasse_vehicle::read_vehicle;
 
@@ -53,10 +54,10 @@ fn findings(file: &PathBuf, text: String) -> (Vec<Complaint>, Option<String>) {
         let of_study = study_complaints(file, &text);
         return match read_mission(file, text) {
             Ok(mission) if of_study.is_empty() => {
-                let loops = mission.sampled_loops(0);
+                let loops = sampled_loops(&mission.cases[0]);
                 let loops: Vec<_> = loops.iter().map(|l| format!("\n  {}", l.text())).collect();
                 let loops = loops.concat();
-                let what = format!("a mission of {} case(s)", mission.case_count());
+                let what = format!("a mission of {} case(s)", mission.cases.len());
                 (mission.remarks, Some(format!("{what}; closed once a period:{loops}")))
             }
             Ok(mission) => ([of_study, mission.remarks].concat(), None),

@@ -8,8 +8,9 @@ use crate::{YES, bad, no};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use wrasse_mission::{End, Mission, RunOptions, read_mission, run};
+use wrasse_mission::{Mission, read_mission, run};
 use wrasse_record::{summary_json, verdict_table, write_results};
+use wrasse_rehearsal::{End, RunOptions};
 
 /// Fly a mission, judge its requirements, write the report.
 ///

@@ -23,6 +23,7 @@
 //! assert_eq!(complaint.span, Some(10..14));
 //! ```
 
+mod canonical;
 mod complaint;
 mod deserialize;
 mod document;

@@ -1,6 +1,7 @@
 //! What others may ask the flight computer: what it believes, and how it judges its way.
 
 use crate::computer::FlightComputer;
+use crate::law::Task;
 use crate::navigation::Navigation;
 use crate::phase::{Held, Path};
 use crate::resolved_motion::{Assignment, task_jacobian};
@@ -27,6 +28,11 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     /// The tool frame that is guided.
     pub fn tool(&self) -> &Frame<T> {
         &self.setup.assignment.tool
+    }
+
+    /// Which part of the tool's motion counts.
+    pub fn task(&self) -> Task {
+        self.setup.assignment.task
     }
 
     /// How far the law believes the tool to be from its reference: distance (m) and angle (rad).

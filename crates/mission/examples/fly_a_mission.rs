@@ -3,7 +3,8 @@
 //! `cargo run -p wrasse-mission --example fly_a_mission`
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
-use wrasse_mission::{RunOptions, read_mission, run};
+use wrasse_mission::{read_mission, run};
+use wrasse_rehearsal::RunOptions;
 
 const MISSION: &str = r#"
 name = "nudge"

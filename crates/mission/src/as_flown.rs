@@ -1,24 +1,12 @@
 //! Laws and world as they are flown: each setting with its value, and whence it is.
 
-use crate::figures::rounded;
-use crate::format::MissionFile;
-use crate::mission::Case;
-use crate::read_base::Turning;
-use serde::Serialize;
+use crate::toml::MissionFile;
 use serde_json::Value;
 use wrasse_document::{Document, Step};
+use wrasse_rehearsal::AttitudeActuation;
+use wrasse_rehearsal::figures::rounded;
+use wrasse_rehearsal::{Case, Setting};
 use wrasse_world::{BaseAttitude, Stepper};
-
-/// A setting of laws or world.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Setting {
-    /// Its key in a mission file: `control.arm_law`.
-    pub key: String,
-    /// Its value, in the unit of the key.
-    pub value: String,
-    /// Whence: `mission file`, `default`, or `tool and phase`.
-    pub origin: &'static str,
-}
 
 /// What was flown, in the order of the format; settings that nothing reads are left out.
 pub(crate) fn as_flown(document: &Document, file: &MissionFile, case: &Case) -> Vec<Setting> {
@@ -69,7 +57,7 @@ fn is_stated(document: &Document, key: &str) -> bool {
 /// Whether a flight of this case reads a setting.
 fn is_read(case: &Case, key: &str) -> bool {
     let is_controlled = case.base == BaseAttitude::Controlled;
-    let is_fitted = is_controlled && case.turning == Turning::Fitted;
+    let is_fitted = is_controlled && case.actuation == AttitudeActuation::Fitted;
     let has = |group: &str| {
         let actuators = &case.equipment.actuators;
         is_fitted
@@ -104,12 +92,12 @@ fn decided(case: &Case, key: &str) -> Option<String> {
             Stepper::Fixed { step } => rounded(step.min(case.period())).to_string(),
             Stepper::Adaptive { .. } => return None,
         },
-        "control.actuators" => match (case.base, case.turning) {
+        "control.actuators" => match (case.base, case.actuation) {
             (BaseAttitude::Free, _) => "none: the base floats".into(),
             (BaseAttitude::Held, _) => "none: the base is held from outside".into(),
-            (BaseAttitude::Controlled, Turning::Fitted) => "fitted".into(),
-            (BaseAttitude::Controlled, Turning::Ideal(None)) => "unlimited".into(),
-            (BaseAttitude::Controlled, Turning::Ideal(Some(limits))) => {
+            (BaseAttitude::Controlled, AttitudeActuation::Fitted) => "fitted".into(),
+            (BaseAttitude::Controlled, AttitudeActuation::Ideal(None)) => "unlimited".into(),
+            (BaseAttitude::Controlled, AttitudeActuation::Ideal(Some(limits))) => {
                 format!("ideal, {} N·m, {} N·m·s", limits.torque_limit, limits.momentum_limit)
             }
         },

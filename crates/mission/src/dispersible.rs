@@ -1,9 +1,9 @@
 //! The numbers of a case that can be dispersed: their names, units, and how far they may go.
 
-use crate::dispersion::Target;
-use crate::mission::{PayloadCase, PayloadStart};
 use wrasse_dynamics::{JointKind, State};
 use wrasse_hardware::Sensors;
+use wrasse_rehearsal::Target;
+use wrasse_rehearsal::{PayloadCase, PayloadStart};
 use wrasse_spatial::{Pose, Vec3};
 use wrasse_vehicle::{JOINTS, Vehicle};
 use wrasse_world::BaseAttitude;

@@ -1,11 +1,11 @@
 //! Whether the integrator's step and the control period are short enough for what is fitted.
 
-use crate::figures::rounded;
-use crate::format::MissionFile;
-use crate::read_base::Turning;
 use crate::reading::Reading;
+use crate::toml::MissionFile;
 use wrasse_document::{Step, at};
 use wrasse_flight::allocation::Modulation;
+use wrasse_rehearsal::AttitudeActuation;
+use wrasse_rehearsal::figures::rounded;
 use wrasse_vehicle::Equipment;
 use wrasse_world::{BaseAttitude, Stepper};
 
@@ -24,7 +24,7 @@ const NEARLY: f64 = 1.0 - 1e-9;
 pub(crate) struct Sampling<'a> {
     pub(crate) equipment: &'a Equipment,
     pub(crate) base: BaseAttitude,
-    pub(crate) turning: Turning,
+    pub(crate) actuation: AttitudeActuation,
     pub(crate) stepper: Stepper,
     /// Control period (s).
     pub(crate) period: f64,
@@ -37,7 +37,7 @@ pub(crate) fn check_sampling(r: &mut Reading<'_>, file: &MissionFile, sampling: 
     if sampling.base != BaseAttitude::Held {
         check_servos(r, file, sampling);
     }
-    if sampling.turning == Turning::Fitted
+    if sampling.actuation == AttitudeActuation::Fitted
         && let Some(modulation) = &sampling.modulation
     {
         doubt_pulses(r, sampling, modulation);

@@ -121,7 +121,7 @@ fn without(head: &str) -> String {
 fn a_mission_with_all_kinds_of_units_is_read_without_a_remark() {
     let mission = answer(GOOD).unwrap_or_else(|c| panic!("{}", render(&c, false)));
     assert!(mission.remarks.is_empty(), "{}", render(&mission.remarks, false));
-    let actuators = mission.equipment(0).actuators;
+    let actuators = mission.cases[0].equipment.actuators;
     assert_eq!(
         (actuators.wheels.len(), actuators.cmgs.len(), actuators.thrusters.len()),
         (1, 4, 12)
@@ -367,7 +367,7 @@ fn failures_of_units_that_do_not_act_are_doubted() {
 fn actuators_without_a_source_are_read_with_the_catalogues() {
     let text = without("[sensors]");
     let mission = answer(&text).unwrap_or_else(|c| panic!("{}", render(&c, false)));
-    let sources = &mission.equipment(0).provenance;
+    let sources = &mission.cases[0].equipment.provenance;
     assert!(sources.iter().any(|p| p.source.contains("Honeywell")), "{sources:?}");
 }
 

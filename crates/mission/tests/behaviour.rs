@@ -3,7 +3,8 @@
 
 use std::cell::RefCell;
 use wrasse_document::render;
-use wrasse_mission::{Booking, CaseOutcome, End, Outcome, RunOptions, Source, read_mission, run};
+use wrasse_mission::{Outcome, read_mission, run};
+use wrasse_rehearsal::{Booking, CaseOutcome, End, RunOptions, Source};
 use wrasse_vehicle::{Vehicle, find_vehicle};
 
 /// Fly a mission on the ATLAS-class servicer; the parts are sections of its file.

@@ -49,7 +49,7 @@ fn assert_all(file: &str, text: &str, expected: &str) {
 fn a_mission_without_mistakes_is_read() {
     let mission =
         read_mission("small.toml", GOOD).unwrap_or_else(|c| panic!("{}", render(&c, false)));
-    assert_eq!((mission.name.as_str(), mission.case_count()), ("small", 1));
+    assert_eq!((mission.name.as_str(), mission.cases.len()), ("small", 1));
 }
 
 #[test]

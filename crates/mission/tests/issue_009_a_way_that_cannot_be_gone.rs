@@ -3,7 +3,8 @@
 #![allow(clippy::print_stdout, reason = "prints what was measured, under --nocapture")]
 
 use wrasse_document::render;
-use wrasse_mission::{CaseOutcome, End, RunOptions, read_mission, run};
+use wrasse_mission::{read_mission, run};
+use wrasse_rehearsal::{CaseOutcome, End, RunOptions};
 
 /// A load of 200 kg on the ATLAS-class arm; `initial` and `control` are lines of these tables.
 fn text(initial: &str, control: &str, phase: &str) -> String {

@@ -1,7 +1,8 @@
 //! Defaults decide the physics: each is said.
 
 use std::path::Path;
-use wrasse_mission::{Mission, RunOptions, mission_schema, read_mission, run_case};
+use wrasse_mission::{Mission, mission_schema, read_mission};
+use wrasse_rehearsal::{RunOptions, run_case};
 
 fn read(text: &str) -> Mission {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../missions/test.toml");
@@ -23,7 +24,7 @@ move_tool = { by_m = [0.01, 0.0, 0.0], duration_s = 1.0 }
 /// Settings as flown: (key, value, origin).
 fn as_flown(world: &str) -> Vec<(String, String, &'static str)> {
     let mission = read(&SHORT.replace("WORLD", world));
-    let case = run_case(&mission, 0, RunOptions::default(), &mut |_, _| {});
+    let case = run_case(&mission.cases[0], RunOptions::default(), &mut |_, _| {});
     case.as_flown.into_iter().map(|s| (s.key, s.value, s.origin)).collect()
 }
 

@@ -3,7 +3,8 @@
 #![allow(clippy::print_stdout, reason = "prints what was measured, under --nocapture")]
 
 use wrasse_document::render;
-use wrasse_mission::{CaseOutcome, End, RunOptions, fly_sample, plan_samples, read_mission, run};
+use wrasse_mission::{read_mission, run};
+use wrasse_rehearsal::{CaseOutcome, End, RunOptions, fly_sample, plan_samples};
 
 const FORWARD: &str = "[initial]\nposture = \"forward_300mm\"\n";
 const LIMP: &str = "[initial]\nposture = \"sideways_300mm\"\n\
@@ -214,7 +215,7 @@ fn a_sample_that_goes_through_the_bus_does_not_pass() {
     let text = text_of("atlas-class", &[FORWARD, drawn, &phase("reach", THROUGH)]);
     let mission = read_mission("flown.toml", text)
         .unwrap_or_else(|complaints| panic!("{}", render(&complaints, false)));
-    let outcome = fly_sample(&plan_samples(&mission, 0), 1, 0);
+    let outcome = fly_sample(&plan_samples(&mission.cases[0]), 1, 0);
     assert!(matches!(outcome.end, End::Completed) && outcome.closes, "{:?}", outcome.end);
     assert!(!outcome.passed);
 }

@@ -1,7 +1,8 @@
 //! Clients heavier than the servicer, drives too weak for them, and loops too fast for their rate.
 
 use std::path::Path;
-use wrasse_mission::{CaseOutcome, End, Mission, RunOptions, read_mission, run_case};
+use wrasse_mission::{Mission, read_mission};
+use wrasse_rehearsal::{CaseOutcome, End, RunOptions, run_case, sampled_loops};
 
 fn missions() -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../missions")
@@ -15,7 +16,7 @@ fn complaints(text: &str) -> Result<Mission, String> {
 #[track_caller]
 fn fly(text: &str) -> CaseOutcome {
     let mission = complaints(text).unwrap_or_else(|text| panic!("{text}"));
-    run_case(&mission, 0, RunOptions::default(), &mut |_, _| {})
+    run_case(&mission.cases[0], RunOptions::default(), &mut |_, _| {})
 }
 
 #[track_caller]
@@ -135,7 +136,7 @@ fn a_loop_near_its_limit_is_remarked_on() {
     let text =
         "near its limit as sampled: joints 10 rad/s at 20 Hz, limit 16.57 rad/s, margin 1.657";
     assert!(remarks.iter().any(|r| r.contains(text)), "{remarks:?}");
-    let loops = mission.sampled_loops(0);
+    let loops = sampled_loops(&mission.cases[0]);
     let names: Vec<_> = loops.iter().map(|l| l.name).collect();
     assert_eq!(names, ["joints", "attitude", "tool"]);
 }
@@ -150,7 +151,7 @@ fn a_law_on_a_base_that_it_does_not_expect_has_a_lower_limit() {
             .replace("duration_s = 40.0", "duration_s = 4.0")
     };
     let mission = complaints(&at(0.5)).expect("a slow loop");
-    let joints = mission.sampled_loops(0)[0].clone();
+    let joints = sampled_loops(&mission.cases[0])[0].clone();
     assert!(joints.gain > 5.0, "{}", joints.text());
     let text = complaints(&at(1.2 * joints.limit)).unwrap_err();
     assert!(text.contains("times what is asked"), "{text}");

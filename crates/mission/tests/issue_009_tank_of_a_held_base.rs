@@ -3,7 +3,8 @@
 #![allow(clippy::print_stdout, reason = "prints what was measured, under --nocapture")]
 
 use wrasse_document::render;
-use wrasse_mission::{CaseOutcome, EventKind, RunOptions, read_mission, run};
+use wrasse_mission::{read_mission, run};
+use wrasse_rehearsal::{CaseOutcome, EventKind, RunOptions};
 
 /// A load of 200 kg is moved by 0.2 m within 5 s, with the base `held` or `controlled` by what has no
 /// limits, and this much propellant (kg) beside the centre of mass.

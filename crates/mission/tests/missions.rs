@@ -11,7 +11,8 @@ use std::sync::LazyLock;
 use wrasse_dynamics::{
     MassProperties, State, bias_force, free_floating_dynamics, kinematics, mass_matrix,
 };
-use wrasse_mission::{CaseOutcome, End, Outcome, RunOptions, read_mission, run};
+use wrasse_mission::{Outcome, read_mission, run};
+use wrasse_rehearsal::{CaseOutcome, End, RunOptions};
 use wrasse_spatial::{Sym3, vec3};
 use wrasse_vehicle::{Vehicle, find_vehicle};
 

@@ -3,7 +3,8 @@
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use wrasse_document::{Severity, render};
-use wrasse_mission::{End, Mission, RunOptions, read_mission, run};
+use wrasse_mission::{Mission, read_mission, run};
+use wrasse_rehearsal::{End, RunOptions};
 
 const SHIPPED: [&str; 20] = [
     include_str!("../../../missions/atlas-reach.toml"),
@@ -91,7 +92,7 @@ const WORDS: [&str; 37] = [
 fn read(text: &str) -> Result<Option<Mission>, TestCaseError> {
     let complaints = match read_mission("fuzz.toml", text) {
         Ok(mission) => {
-            prop_assert!(mission.case_count() > 0);
+            prop_assert!(!mission.cases.is_empty());
             return Ok(Some(mission));
         }
         Err(complaints) => complaints,
@@ -126,7 +127,7 @@ fn seconds(text: &str) -> Option<f64> {
 /// A mission that is short enough is flown; its outcome does not contradict itself.
 fn fly(text: &str) -> Result<bool, TestCaseError> {
     let Some(mission) = read(text)? else { return Ok(false) };
-    let cases = mission.case_count();
+    let cases = mission.cases.len();
     if seconds(text).is_none_or(|s| s * cases as f64 > 5.0 * LONGEST || s > LONGEST) {
         return Ok(false);
     }

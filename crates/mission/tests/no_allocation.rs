@@ -7,7 +7,8 @@ mod counting_allocator;
 use counting_allocator::allocations;
 use std::hint::black_box;
 use std::path::Path;
-use wrasse_mission::{End, fly_sample, plan_samples, read_mission};
+use wrasse_mission::read_mission;
+use wrasse_rehearsal::{End, fly_sample, plan_samples};
 
 /// Calls to the allocator in a flight of a shipped mission, with these words in place of others.
 fn calls(file: &str, changes: &[(&str, &str)]) -> usize {
@@ -20,7 +21,7 @@ fn calls(file: &str, changes: &[(&str, &str)]) -> usize {
     let mission = read_mission(&path, text).unwrap_or_else(|complaints| {
         panic!("{}", wrasse_document::render(&complaints, false));
     });
-    let planned = plan_samples(&mission, 0);
+    let planned = plan_samples(&mission.cases[0]);
     let mut outcome = None;
     let calls = allocations(|| outcome = Some(fly_sample(black_box(&planned), 1, 1)));
     let outcome = outcome.expect("it was flown");

@@ -1,9 +1,8 @@
 //! Samples of a sweep: what is drawn, into what, and that the quick way to fly them is the whole way.
 
 use std::path::{Path, PathBuf};
-use wrasse_mission::{
-    End, Mission, RunOptions, SampleOutcome, fly_sample, plan_samples, read_mission, run_case,
-};
+use wrasse_mission::{Mission, read_mission};
+use wrasse_rehearsal::{End, RunOptions, SampleOutcome, fly_sample, plan_samples, run_case};
 
 fn missions() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../missions")
@@ -35,14 +34,14 @@ fn requiring(text: &str, requirements: &[String]) -> String {
 }
 
 fn sample(mission: &Mission, case: usize, seed: u64, number: u64) -> SampleOutcome {
-    fly_sample(&plan_samples(mission, case), seed, number)
+    fly_sample(&plan_samples(&mission.cases[case]), seed, number)
 }
 
 const SWEEP: &str = "sweeps/module-reach.toml";
 
 /// Every metric that a mission has, required.
 fn requiring_everything(text: &str) -> String {
-    let outcome = run_case(&read(text), 0, RunOptions::default(), &mut |_, _| {});
+    let outcome = run_case(&read(text).cases[0], RunOptions::default(), &mut |_, _| {});
     let all = outcome
         .metrics
         .iter()
@@ -61,10 +60,10 @@ fn a_sample_flown_for_its_verdicts_has_every_bit_of_the_one_flown_for_a_report()
         "sweeps/sensor-noise.toml",
     ] {
         let mission = read(&requiring_everything(&text(file)));
-        let case = mission.case_count() - 1;
+        let case = mission.cases.len() - 1;
         let quick = sample(&mission, case, 5, 17);
         let sampled = mission.sampled(5, 17);
-        let whole = run_case(&sampled, case, RunOptions::default(), &mut |_, _| {});
+        let whole = run_case(&sampled.cases[case], RunOptions::default(), &mut |_, _| {});
         assert!(quick.verdicts.len() > 40, "{file}: {}", quick.verdicts.len());
         for (a, b) in quick.verdicts.iter().zip(&whole.verdicts) {
             let bits = |value: Option<f64>| value.map(f64::to_bits);
@@ -142,7 +141,7 @@ fn a_sample_knows_nothing_of_the_dispersions_behind_its_own() {
     assert_eq!(many.len(), few.len() + 3);
     assert_eq!(many[..few.len()], few);
     assert_eq!(
-        short.dispersed(0)[..4],
+        short.cases[0].dispersed()[..4],
         [
             "payload.module.mass_kg",
             "payload.module.centre_of_mass_m.x",

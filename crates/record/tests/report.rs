@@ -3,8 +3,9 @@
 
 mod sample;
 
-use wrasse_mission::{CaseOutcome, End, EventKind, Outcome, Verdict};
+use wrasse_mission::Outcome;
 use wrasse_record::{report_html, verdict_table};
+use wrasse_rehearsal::{CaseOutcome, End, EventKind, Verdict};
 use wrasse_spatial::Vec3;
 
 /// The page without what browsers do not read as markup: contents of scripts and styles.

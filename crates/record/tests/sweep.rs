@@ -6,8 +6,9 @@ use parquet::record::Field;
 use std::fs::File;
 use std::io::Write;
 use std::sync::LazyLock;
-use wrasse_mission::{Mission, RunOptions, read_mission, run};
+use wrasse_mission::{Mission, read_mission, run};
 use wrasse_record::{samples_parquet, sweep_html, sweep_json, sweep_table, write_sweep};
+use wrasse_rehearsal::RunOptions;
 use wrasse_sweep::{OwnedFolder, Sweep, SweepOutcome, sweep};
 
 /// Two cases, the second with a payload that floats away too fast to be grasped.

@@ -2,8 +2,8 @@
 
 mod sample;
 
-use wrasse_mission::{Event, EventKind};
 use wrasse_record::verdict_table;
+use wrasse_rehearsal::{Event, EventKind};
 
 #[test]
 fn a_single_case_shows_its_verdicts_and_a_line_each_for_momentum_and_energy() {

@@ -2,7 +2,8 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
-use wrasse_mission::{CaseOutcome, Mission, Progress, RunOptions, run_case};
+use wrasse_mission::{Mission, Progress};
+use wrasse_rehearsal::{CaseOutcome, RunOptions, run_case};
 
 /// Stack of a thread that flies (bytes): a flight keeps the matrices of many joints by value.
 const STACK: usize = 16 << 20;
@@ -20,7 +21,7 @@ pub(crate) fn fly(
     let fly_next = |tell: &Sender<(usize, CaseOutcome)>| {
         let number = next.fetch_add(1, Ordering::Relaxed);
         let Some(case) = cases.get(number) else { return false };
-        let outcome = run_case(mission, *case, RunOptions::default(), &mut |_, _| {});
+        let outcome = run_case(&mission.cases[*case], RunOptions::default(), &mut |_, _| {});
         // Nobody stops listening before the last one.
         let _ = tell.send((number, outcome));
         true

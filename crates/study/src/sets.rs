@@ -74,8 +74,8 @@ pub(crate) fn with_sets(text: &str, rows: &[&SetRow]) -> String {
 /// The vehicle's own units: those that the mission or the vehicle has, without any the ideal actuator
 /// of the vehicle within its limits, without that nothing. `own`: what the mission asks of them alone.
 pub(crate) fn as_fitted(mission: &Mission, case: usize, own: &Table) -> SetRow {
-    let units = !mission.equipment(case).actuators.is_empty();
-    let (base, turned_by) = match (units, mission.vehicle(case).attitude_actuator) {
+    let units = !mission.cases[case].equipment.actuators.is_empty();
+    let (base, turned_by) = match (units, mission.cases[case].vehicle.attitude_actuator) {
         (true, _) => ("controlled", Some("fitted")),
         (false, Some(_)) => ("controlled", Some("ideal")),
         (false, None) => ("free", None),

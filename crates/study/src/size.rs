@@ -12,9 +12,8 @@ use crate::outcome::{Finding, Flown, SetCard, SetKind, SetVerdict, StudyOutcome,
 use crate::study::{Study, Task};
 use wrasse_dynamics::{JointKind, State};
 use wrasse_hardware::{List, ReactionWheel};
-use wrasse_mission::{
-    Booking, CaseOutcome, End, EventKind, Metric, Progress, ProvenanceRow, Source,
-};
+use wrasse_mission::{Progress, ProvenanceRow};
+use wrasse_rehearsal::{Booking, CaseOutcome, End, EventKind, Metric, Source};
 use wrasse_spatial::{Vec3, vec3};
 use wrasse_vehicle::{Equipment, Grade, Vehicle};
 
@@ -72,9 +71,9 @@ fn broke_down(case: &CaseOutcome) -> bool {
 fn card(study: &Study, k: usize) -> SetCard {
     let case = study.tasks.first().and_then(|task| task.cases.get(k)).copied();
     let nothing = Equipment::default();
-    let equipment = case.map_or(&nothing, |case| study.mission.equipment(case));
+    let equipment = case.map_or(&nothing, |case| &study.mission.cases[case].equipment);
     let ideal = k == study.reference;
-    let limited = case.and_then(|case| study.mission.ideal_actuator(case));
+    let limited = case.and_then(|case| study.mission.cases[case].ideal_actuator());
     let capability = match case {
         Some(case) if !ideal => capability(study, case, Vec3::zero()),
         _ => Capability::ideal(),
@@ -109,8 +108,8 @@ fn card(study: &Study, k: usize) -> SetCard {
 /// What the set of a case can do, about a centre of mass (m, base axes). An ideal actuator within its
 /// limits is three wheels of these limits along the axes of the base.
 fn capability(study: &Study, case: usize, p_BScm_B: Vec3<f64>) -> Capability {
-    let Some(limits) = study.mission.ideal_actuator(case) else {
-        return Capability::of(study.mission.equipment(case), p_BScm_B);
+    let Some(limits) = study.mission.cases[case].ideal_actuator() else {
+        return Capability::of(&study.mission.cases[case].equipment, p_BScm_B);
     };
     let axes = [vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0)];
     let wheel = |axis_B| ReactionWheel {
@@ -173,10 +172,10 @@ fn surfaces(capability: &Capability) -> Vec<Mesh> {
 /// A task from its flights: the reference first, then the other sets if they were flown.
 fn task_outcome(study: &Study, task: &Task, flown: &[CaseOutcome]) -> TaskOutcome {
     let reference = &flown[0];
-    let vehicle = study.mission.vehicle(task.cases[study.reference]);
+    let vehicle = &study.mission.cases[task.cases[study.reference]].vehicle;
     let own_motion = is_own_motion(reference);
     let demand = demand(reference);
-    let tank = study.mission.equipment(task.cases[study.reference]).actuators.tank;
+    let tank = study.mission.cases[task.cases[study.reference]].equipment.actuators.tank;
     let start = Start::new(vehicle, tank, &state(vehicle, reference));
     let centre = start.centre_of_mass(&task.file);
     let mut others = flown[1..].iter();
@@ -284,7 +283,7 @@ fn metric(case: &CaseOutcome, name: &str) -> Option<f64> {
 /// the set lacks: it does not apply.
 fn requirements_hold(case: &CaseOutcome) -> bool {
     let completed = matches!(case.end, End::Completed);
-    let holds = |v: &wrasse_mission::Verdict| v.pass || (completed && v.value.is_none());
+    let holds = |v: &wrasse_rehearsal::Verdict| v.pass || (completed && v.value.is_none());
     case.verdicts.iter().all(holds)
 }
 

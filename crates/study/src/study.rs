@@ -87,10 +87,10 @@ fn laid_over(
     let (plain, own) = without_own_units(text);
     let (reference, mut sets) = shipped();
     if !catalogue.is_empty() {
-        let of_kind = |kind: &Catalogue| of_catalogue(*kind, mission.vehicle(0));
+        let of_kind = |kind: &Catalogue| of_catalogue(*kind, &mission.cases[0].vehicle);
         sets = catalogue.iter().flat_map(of_kind).collect();
     }
-    let mut sets = fed(sets, mission.equipment(0).actuators.tank);
+    let mut sets = fed(sets, mission.cases[0].equipment.actuators.tank);
     sets.insert(0, as_fitted(mission, 0, &own));
     // What is wrong with the reference is wrong with the mission.
     read_mission(path, with_sets(&plain, &[&reference]))?;
@@ -150,13 +150,14 @@ fn beside_own_units(
 fn own_units_missing(mission: &Mission) -> Option<SetRow> {
     let table = mission.study.as_ref()?;
     let is_reference = |case: &usize| {
-        mission.case_labels(*case).contains(&(table.sets.clone(), table.reference.clone()))
+        mission.cases[*case].labels.contains(&(table.sets.clone(), table.reference.clone()))
     };
-    let cases = || 0..mission.case_count();
+    let cases = || 0..mission.cases.len();
     let reference = cases().find(is_reference)?;
-    let own = &mission.equipment(reference).actuators;
+    let own = &mission.cases[reference].equipment.actuators;
     let mut others = cases().filter(|case| !is_reference(case));
-    let missing = !own.is_empty() && others.all(|case| mission.equipment(case).actuators != *own);
+    let missing =
+        !own.is_empty() && others.all(|case| mission.cases[case].equipment.actuators != *own);
     missing.then(|| as_fitted(mission, reference, &Table::new()))
 }
 
@@ -173,10 +174,10 @@ fn with_row(text: &str, mission: &Mission, row: &SetRow) -> Option<String> {
 /// The cases of a mission told apart by task and set.
 fn study_of(mission: Mission, document: &Document) -> Study {
     let table = mission.study.clone().expect("whoever calls has seen it");
-    let labels_of = |case: usize| mission.case_labels(case).iter();
+    let labels_of = |case: usize| mission.cases[case].labels.iter();
     let mut sets: Vec<String> = vec![];
     let mut tasks: Vec<Task> = vec![];
-    for case in 0..mission.case_count() {
+    for case in 0..mission.cases.len() {
         let set = labels_of(case).find(|(axis, _)| *axis == table.sets).map(|(_, row)| row.clone());
         let set = set.unwrap_or_default();
         if !sets.contains(&set) {

@@ -35,7 +35,7 @@ pub struct DrawnValue {
 impl Drawn {
     /// All that is drawn in a case.
     pub(crate) fn all(mission: &Mission, case: usize, rows: &[Row]) -> Vec<Self> {
-        let names = mission.dispersed(case).into_iter().zip(mission.nominal(case));
+        let names = mission.cases[case].dispersed().into_iter().zip(mission.cases[case].nominal());
         let each = names.enumerate().map(|(i, (name, (nominal, unit)))| {
             let flown = || rows.iter().map(|row| nominal + row.deviations[i]);
             Self {

@@ -13,7 +13,7 @@ const LOCK: &str = ".lock";
 #[derive(Debug)]
 pub struct OwnedFolder {
     path: PathBuf,
-    _lock: File,
+    lock: File,
 }
 
 impl OwnedFolder {
@@ -27,7 +27,7 @@ impl OwnedFolder {
         let open = File::options().create(true).truncate(false).write(true).open(&name);
         let lock = open.map_err(|e| refused("write", &name, e))?;
         match lock.try_lock() {
-            Ok(()) => Ok(Self { path: path.to_owned(), _lock: lock }),
+            Ok(()) => Ok(Self { path: path.to_owned(), lock }),
             Err(TryLockError::WouldBlock) => Err(SweepError::InUse { folder: path.to_owned() }),
             Err(TryLockError::Error(e)) => Err(refused("lock", &name, e)),
         }
@@ -68,6 +68,31 @@ impl OwnedFolder {
     }
 }
 
+impl Drop for OwnedFolder {
+    /// Closing the file is not enough: a process that is being started holds a copy of every open file
+    /// until it begins, and with it the lock.
+    fn drop(&mut self) {
+        // What cannot be let go of is let go of when the process ends.
+        let _ = self.lock.unlock();
+    }
+}
+
 fn refused(doing: &'static str, path: &Path, source: io::Error) -> SweepError {
     SweepError::File { doing, path: path.to_owned(), source }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_copy_of_the_open_file_holds_nobody_up_once_the_folder_is_given_back() {
+        let place = tempfile::tempdir().expect("a place");
+        let owned = OwnedFolder::take(place.path()).expect("it is free");
+        // What a process has that is being started while the folder is given back.
+        let copy = owned.lock.try_clone().expect("a copy");
+        drop(owned);
+        OwnedFolder::take(place.path()).expect("it was given back");
+        drop(copy);
+    }
 }

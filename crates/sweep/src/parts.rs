@@ -61,7 +61,7 @@ impl Label {
             format: FORMAT,
             version: env!("CARGO_PKG_VERSION").into(),
             mission: asked.mission.name.clone(),
-            fingerprint: format!("{:016x}", asked.mission.fingerprint()),
+            fingerprint: asked.mission.fingerprint(),
             seed: asked.seed,
         }
     }

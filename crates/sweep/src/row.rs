@@ -1,7 +1,8 @@
 //! One sample in one case: a row of the results.
 
 use serde::{Deserialize, Serialize};
-use wrasse_mission::{End, Mission, SampleOutcome};
+use wrasse_mission::Mission;
+use wrasse_rehearsal::{End, SampleOutcome};
 
 /// What came of one sample in one case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -28,9 +29,9 @@ pub struct Row {
 impl Row {
     /// Whether it is of a case of this mission, as far as its columns tell.
     pub(crate) fn fits(&self, mission: &Mission) -> bool {
-        self.case < mission.case_count()
-            && self.deviations.len() == mission.dispersed(self.case).len()
-            && self.values.len() == mission.requirement_count(self.case)
+        self.case < mission.cases.len()
+            && self.deviations.len() == mission.cases[self.case].dispersed().len()
+            && self.values.len() == mission.cases[self.case].requirements.len()
             && self.holds.len() == self.values.len()
     }
     pub(crate) fn of(case: usize, outcome: SampleOutcome) -> Self {

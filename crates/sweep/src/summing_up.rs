@@ -7,7 +7,7 @@ use crate::percentiles::Percentiles;
 use crate::rank_correlation::rank_correlation;
 use crate::row::Row;
 use crate::sweep::Sweep;
-use wrasse_mission::{End, Verdict};
+use wrasse_rehearsal::{End, Verdict};
 
 /// Worst samples that are told of each requirement.
 const WORST: usize = 5;
@@ -22,7 +22,7 @@ const CHANCE: f64 = 3.0;
 /// What all samples together say; rows in order of case, then sample.
 pub(crate) fn sum_up(asked: &Sweep<'_>, rows: Vec<Row>) -> SweepOutcome {
     let mission = asked.mission;
-    let mut of_cases: Vec<Vec<Row>> = vec![vec![]; mission.case_count()];
+    let mut of_cases: Vec<Vec<Row>> = vec![vec![]; mission.cases.len()];
     for row in rows {
         of_cases[row.case].push(row);
     }
@@ -43,14 +43,14 @@ pub(crate) fn sum_up(asked: &Sweep<'_>, rows: Vec<Row>) -> SweepOutcome {
 fn of_case(asked: &Sweep<'_>, case: usize, rows: Vec<Row>) -> CaseSweep {
     let mission = asked.mission;
     let drawn = Drawn::all(mission, case, &rows);
-    let draws = mission.varies(case);
+    let draws = mission.cases[case].varies();
     // Without requirements nothing is looked at that could differ.
-    let looks = mission.requirement_count(case) > 0;
+    let looks = !mission.cases[case].requirements.is_empty();
     let varies = !(looks && all_alike(&rows, |row| (&row.values, &row.end)));
-    let required = mission.required(case);
+    let required = mission.cases[case].required();
     let each = required.into_iter().enumerate();
     CaseSweep {
-        labels: mission.case_labels(case).to_vec(),
+        labels: mission.cases[case].labels.clone(),
         passed: rate(rows.iter().filter(|row| row.passed).count(), rows.len(), draws, varies),
         ends: ends(&rows),
         open_books: rows.iter().filter(|row| has_open_books(row)).count(),

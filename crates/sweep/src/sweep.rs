@@ -10,7 +10,8 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
-use wrasse_mission::{Mission, SamplePlan, fly_sample, plan_samples};
+use wrasse_mission::Mission;
+use wrasse_rehearsal::{SamplePlan, fly_sample, plan_samples};
 
 /// What a sweep is asked to do.
 #[derive(Debug, Clone, Copy)]
@@ -57,7 +58,7 @@ pub fn sweep(
     folder: &OwnedFolder,
     progress: &mut dyn FnMut(u64, u64),
 ) -> Result<SweepOutcome, SweepError> {
-    let count = asked.mission.case_count();
+    let count = asked.mission.cases.len();
     asked.check()?;
     folder.clear_up();
     let parts = Parts::open(folder, asked)?;
@@ -67,8 +68,9 @@ pub fn sweep(
     progress(rows.len() as u64, all);
     let chunks = asked.chunks(&rows);
     let needed = |case: usize| chunks.iter().any(|chunk| chunk.case == case);
-    let plans =
-        (0..count).map(|case| needed(case).then(|| plan_samples(asked.mission, case))).collect();
+    let plans = (0..count)
+        .map(|case| needed(case).then(|| plan_samples(&asked.mission.cases[case])))
+        .collect();
     let work = Work { asked, plans, chunks, next: AtomicUsize::new(0), stack: STACK };
     work.fly_all(&mut |done| {
         parts.keep(&done)?;
@@ -136,7 +138,7 @@ impl Sweep<'_> {
     /// # Errors
     /// A mission that draws nothing in any of its cases.
     pub fn check(&self) -> Result<(), SweepError> {
-        if (0..self.mission.case_count()).any(|case| self.mission.varies(case)) {
+        if (0..self.mission.cases.len()).any(|case| self.mission.cases[case].varies()) {
             return Ok(());
         }
         let (file, samples) = (self.mission.file.clone(), self.samples);
@@ -148,7 +150,7 @@ impl Sweep<'_> {
         let share = self.samples / (CHUNKS * self.threads.max(1) as u64);
         let size = (share / CHUNK.0 * CHUNK.0).clamp(CHUNK.0, CHUNK.1);
         let mut chunks: Vec<Chunk> = vec![];
-        for case in 0..self.mission.case_count() {
+        for case in 0..self.mission.cases.len() {
             for sample in (0..self.samples).filter(|sample| !done.contains_key(&(case, *sample))) {
                 match chunks.last_mut() {
                     Some(chunk)
@@ -194,7 +196,7 @@ mod tests {
         let mission = read_mission("q.toml", text).expect("a sound mission");
         let asked = Sweep { mission: &mission, samples: 20, seed: 5, threads: 4 };
         let flown = |stack| {
-            let (plans, next) = (vec![Some(plan_samples(&mission, 0))], AtomicUsize::new(0));
+            let (plans, next) = (vec![Some(plan_samples(&mission.cases[0]))], AtomicUsize::new(0));
             let chunks = asked.chunks(&BTreeMap::new());
             let work = Work { asked: &asked, plans, chunks, next, stack };
             let mut rows = vec![];

@@ -1,6 +1,7 @@
 //! A sweep keeps what its samples have alone, to the bit, by however many threads they are flown.
 
-use wrasse_mission::{End, fly_sample, plan_samples, read_mission};
+use wrasse_mission::read_mission;
+use wrasse_rehearsal::{End, fly_sample, plan_samples};
 use wrasse_sweep::{OwnedFolder, Sweep, sweep};
 
 /// Samples of which some find no way: near a singular posture the joints cannot follow so fast a line.
@@ -38,7 +39,7 @@ fn every_row_is_that_of_the_sample_alone_by_one_thread_and_by_two() {
     let mission = read_mission("quick.toml", MISSION).unwrap_or_else(|complaints| {
         panic!("{}", wrasse_document::render(&complaints, false));
     });
-    let planned = plan_samples(&mission, 0);
+    let planned = plan_samples(&mission.cases[0]);
     let alone: Vec<_> = (0..20).map(|sample| fly_sample(&planned, 5, sample)).collect();
     for threads in [1, 2] {
         let folder = tempfile::tempdir().expect("a folder");

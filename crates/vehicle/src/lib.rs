@@ -25,7 +25,8 @@ pub use catalogue::{CatalogueEntry, NoVehicle, catalogue, find_vehicle};
 pub use check::check_equipment;
 pub use equipment::Equipment;
 pub use hardware::{
-    EquipmentFile, HardwareEntry, SensorsFile, hardware, read_equipment, read_sensors,
+    EquipmentFile, HardwareEntry, SensorsFile, hardware, hardware_texts, read_equipment,
+    read_sensors,
 };
 pub use provenance::{Grade, Provenance};
 pub use read_vehicle::read_vehicle;

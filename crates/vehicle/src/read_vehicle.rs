@@ -19,7 +19,7 @@ pub fn read_vehicle(
 ) -> Result<Vehicle, Vec<Complaint>> {
     let source = Source::new(path, text);
     let ending = source.path.extension().and_then(|e| e.to_str()).map(str::to_lowercase);
-    match ending.as_deref() {
+    let read = match ending.as_deref() {
         Some("toml") => read_toml(&source),
         Some("urdf" | "xml") => read_urdf(&source),
         other => {
@@ -29,5 +29,6 @@ pub fn read_vehicle(
             let complaint = Complaint::error(&source, message);
             Err(vec![complaint.with_help("vehicle files end in .toml, .urdf or .xml")])
         }
-    }
+    };
+    read.map(|vehicle| Vehicle { text: source.text.clone(), ..vehicle })
 }

@@ -20,6 +20,8 @@ pub struct Vehicle {
     pub name: String,
     /// One line for lists and reports.
     pub summary: String,
+    /// The whole text of its file.
+    pub text: String,
     /// Its dynamics.
     pub robot: VehicleRobot,
     /// Names of the moving joints, in the robot's order.

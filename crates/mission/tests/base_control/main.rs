@@ -11,7 +11,8 @@ mod what_comes_of_them;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
-use wrasse_mission::{CaseOutcome, Mission, Outcome, RunOptions, read_mission, run};
+use wrasse_mission::{Mission, Outcome, read_mission, run};
+use wrasse_rehearsal::{CaseOutcome, RunOptions};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../missions/base-control")

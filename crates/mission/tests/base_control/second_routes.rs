@@ -3,7 +3,8 @@
 use crate::{case, channel, degrees, fly, metric, read, text_of};
 use wrasse_dynamics::{MassProperties, Robot, State, kinematics, momentum};
 use wrasse_hardware::STANDARD_GRAVITY;
-use wrasse_mission::{CaseOutcome, RunOptions, Source, run};
+use wrasse_mission::run;
+use wrasse_rehearsal::{CaseOutcome, RunOptions, Source};
 use wrasse_spatial::{Sym3, Vec3, vec3};
 use wrasse_vehicle::{JOINTS, find_vehicle};
 
@@ -36,7 +37,7 @@ fn of_the_joints(
 fn momentum_of_the_arm_and_momentum_of_wheels_or_cmgs_add_up_to_nothing() {
     for (name, laden, bound) in [("wheels", false, 2e-5), ("cmgs", true, 1e-3)] {
         let (flown, mission) = (case(name, ""), read(&text_of(name)));
-        let (vehicle, equipment) = (mission.vehicle(0), mission.equipment(0));
+        let (vehicle, equipment) = (&mission.cases[0].vehicle, &mission.cases[0].equipment);
         let tool = vehicle.frame("tool").expect("it has a tool");
         let robot =
             if laden { vehicle.robot.with_payload(&tool, &module()) } else { vehicle.robot };

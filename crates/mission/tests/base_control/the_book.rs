@@ -3,7 +3,7 @@
 use crate::figures::Page;
 use crate::{case, degrees, fly, metric, said, text_of};
 use wrasse_hardware::STANDARD_GRAVITY;
-use wrasse_mission::{CaseOutcome, Source};
+use wrasse_rehearsal::{CaseOutcome, Source};
 
 fn turned(case: &CaseOutcome) -> f64 {
     degrees(case, "base.rotation.max")

@@ -2,7 +2,7 @@
 
 use crate::{FLOWN, about, case, channel, degrees, fly, metric, said, text_of};
 use wrasse_hardware::STANDARD_GRAVITY;
-use wrasse_mission::{CaseOutcome, End, EventKind, Source};
+use wrasse_rehearsal::{CaseOutcome, End, EventKind, Source};
 
 /// Measured: what nobody booked is at most 2.6e-14 of what is there in angular momentum, 1.3e-14 in
 /// linear, 7.3e-9 in energy.

@@ -9,9 +9,8 @@ use missions::{Pair, pairs};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use table::ROWS;
-use wrasse_mission::{
-    CaseOutcome, Mission, RunOptions, Verdict, fly_sample, plan_samples, read_mission, run_case,
-};
+use wrasse_mission::{Mission, read_mission};
+use wrasse_rehearsal::{CaseOutcome, RunOptions, Verdict, fly_sample, plan_samples, run_case};
 
 /// A mission of this text with these requirements; vehicles lie beside it.
 fn read(text: &str, requirements: &[String]) -> Mission {
@@ -22,7 +21,7 @@ fn read(text: &str, requirements: &[String]) -> Mission {
 }
 
 fn fly(text: &str, requirements: &[String]) -> CaseOutcome {
-    run_case(&read(text, requirements), 0, RunOptions::default(), &mut |_, _| {})
+    run_case(&read(text, requirements).cases[0], RunOptions::default(), &mut |_, _| {})
 }
 
 /// What is judged of each metric of a pair, in both directions.
@@ -78,7 +77,7 @@ fn the_table_names_every_metric_that_there_is() {
 fn whatever_a_run_shows_of_a_quantity_a_sample_shows_to_the_bit() {
     for pair in pairs() {
         let shown = fly(&pair.bad, &[]).metrics;
-        let required = |m: &wrasse_mission::Metric| {
+        let required = |m: &wrasse_rehearsal::Metric| {
             let unit = m.unit.replace('–', "-");
             format!("{} >= -1e300 {unit}", m.name)
         };
@@ -86,8 +85,8 @@ fn whatever_a_run_shows_of_a_quantity_a_sample_shows_to_the_bit() {
         for metric in shown.iter().filter(|m| ROWS.iter().any(|row| row.1 == m.name)) {
             let mission = read(&pair.bad, &[required(metric)]);
             let sampled = mission.sampled(seed, number);
-            let run = run_case(&sampled, 0, RunOptions::default(), &mut |_, _| {});
-            let sample = fly_sample(&plan_samples(&mission, 0), seed, number);
+            let run = run_case(&sampled.cases[0], RunOptions::default(), &mut |_, _| {});
+            let sample = fly_sample(&plan_samples(&mission.cases[0]), seed, number);
             let bits = |v: &Verdict| v.value.map(f64::to_bits);
             assert!(run.verdicts[0].value.is_some(), "{}: {}", pair.name, metric.name);
             let found = (bits(&sample.verdicts[0]), sample.verdicts[0].pass);

@@ -4,7 +4,8 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use parquet::basic::Type as Physical;
-use wrasse_mission::{CaseOutcome, Channel, Outcome};
+use wrasse_mission::Outcome;
+use wrasse_rehearsal::{CaseOutcome, Channel};
 
 use super::{Cells, Field, Values, file, texts};
 use crate::error::RecordError;

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use parquet::basic::Type as Physical;
-use wrasse_mission::End;
+use wrasse_rehearsal::End;
 use wrasse_sweep::{CaseSweep, DrawnValue, Row, SweepOutcome};
 
 use super::{Cells, Field, Values, file, numbers, texts};

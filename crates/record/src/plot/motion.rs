@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use maud::{Markup, html};
-use wrasse_mission::Snapshot;
+use wrasse_rehearsal::Snapshot;
 
 use super::{Axis, Frame, Length, Scale, corners, multiples, step};
 use crate::wording::numbers::significant;

@@ -1,6 +1,7 @@
 //! The verdicts of a run as plain text.
 
-use wrasse_mission::{CaseOutcome, Event, EventKind, Ledger, Outcome, Verdict};
+use wrasse_mission::Outcome;
+use wrasse_rehearsal::{CaseOutcome, Event, EventKind, Ledger, Verdict};
 
 use super::{Side, aligned, printable};
 use crate::wording::cases::{case_name, judged, reason};

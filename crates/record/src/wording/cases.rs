@@ -1,6 +1,6 @@
 //! Cases and requirements in words: their names, how they ended and why.
 
-use wrasse_mission::{CaseOutcome, End};
+use wrasse_rehearsal::{CaseOutcome, End};
 
 use super::numbers::significant;
 

@@ -1,6 +1,7 @@
 //! Several cases side by side: what tells them apart, how they ended, what they measured.
 
-use wrasse_mission::{CaseOutcome, Outcome};
+use wrasse_mission::Outcome;
+use wrasse_rehearsal::CaseOutcome;
 
 use super::cases::{ending, quantity};
 

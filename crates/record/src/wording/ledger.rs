@@ -1,7 +1,7 @@
 //! The ledger in words: what it leaves unexplained, how much that is of what was in play, why there
 //! is none, what to try if it stays open.
 
-use wrasse_mission::{Booking, CaseOutcome, End, Ledger, Source};
+use wrasse_rehearsal::{Booking, CaseOutcome, End, Ledger, Source};
 
 /// What to try when the ledger does not close.
 pub(crate) const OPEN: &str = "          an open ledger fails the run; a smaller world.step_s closes it if the \

@@ -2,10 +2,10 @@
 //! The figures are made up, smooth and of the right size; no dynamics is behind them.
 #![allow(dead_code, reason = "each test file uses its own part")]
 
-use wrasse_mission::{
+use wrasse_mission::{Outcome, ProvenanceRow, VehicleCard};
+use wrasse_rehearsal::{
     Account, Booking, Bookings, CaseOutcome, Channel, End, Event, EventKind, Ledger, Metric,
-    Outcome, PlanLine, ProvenanceRow, Setting, Snapshot, SnapshotBox, Source, Telemetry,
-    VehicleCard, Verdict,
+    PlanLine, Setting, Snapshot, SnapshotBox, Source, Telemetry, Verdict,
 };
 use wrasse_spatial::vec3;
 

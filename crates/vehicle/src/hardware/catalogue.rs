@@ -79,6 +79,11 @@ const FILES: [(&str, &str); 4] = [
     ("vehicles/hardware/sensors.toml", include_str!("../../../../vehicles/hardware/sensors.toml")),
 ];
 
+/// The whole texts of the hardware catalogue, file by file.
+pub fn hardware_texts() -> impl Iterator<Item = &'static str> {
+    FILES.into_iter().map(|(_, text)| text)
+}
+
 static MODELS: LazyLock<HardwareFile> = LazyLock::new(|| {
     let mut all = HardwareFile::default();
     for (path, text) in FILES {

@@ -17,6 +17,6 @@ mod wheel;
 
 pub(crate) use actuators::equipment;
 pub use actuators::{EquipmentFile, read_equipment};
-pub use catalogue::{HardwareEntry, hardware};
+pub use catalogue::{HardwareEntry, hardware, hardware_texts};
 pub(crate) use sensors::sensors;
 pub use sensors::{SensorsFile, read_sensors};

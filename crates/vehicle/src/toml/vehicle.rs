@@ -114,6 +114,7 @@ fn vehicle_of(
         of_tool.for_each(|frame| frame.grasp_bounds = bounds);
     }
     Ok(Vehicle {
+        text: String::new(),
         name: file.name,
         summary: file.summary,
         robot: assembled.robot,

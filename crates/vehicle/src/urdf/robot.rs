@@ -78,6 +78,7 @@ fn vehicle(name: String, from: AssembledRobot, outlines: &[Outline], found: Find
         Some(Shape { link: outline.link.clone(), frame, kind: outline.kind })
     };
     Vehicle {
+        text: String::new(),
         summary: format!("{name}, from a URDF file"),
         name,
         shapes: outlines.iter().filter_map(on_body).collect(),

@@ -1,7 +1,7 @@
 //! The report's sections on one case: verdicts, motion, plots, plan, events, ledger, metrics.
 
 use maud::{Markup, html};
-use wrasse_mission::{CaseOutcome, Metric, Verdict};
+use wrasse_rehearsal::{CaseOutcome, Metric, Verdict};
 
 use super::super::{
     Head, dotted, figure, folded, number, section_of_level, table, verdict_mark, words,

@@ -3,7 +3,7 @@
 
 use data_encoding::BASE64;
 use serde_json::{Value, json};
-use wrasse_mission::{CaseOutcome, Channel, Telemetry};
+use wrasse_rehearsal::{CaseOutcome, Channel, Telemetry};
 
 use super::case::EVENTS;
 use super::limits::limits;

@@ -2,7 +2,7 @@
 //! explains.
 
 use maud::{Markup, PreEscaped, html};
-use wrasse_mission::{Account, Booking, CaseOutcome, Ledger, Source};
+use wrasse_rehearsal::{Account, Booking, CaseOutcome, Ledger, Source};
 use wrasse_spatial::Vec3;
 
 use super::super::{Head, said, table};

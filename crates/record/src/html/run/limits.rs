@@ -1,7 +1,7 @@
 //! Limits of requirements as lines in the plots of their quantities.
 
 use serde::Serialize;
-use wrasse_mission::{CaseOutcome, Channel, EventKind, Verdict};
+use wrasse_rehearsal::{CaseOutcome, Channel, EventKind, Verdict};
 
 use crate::wording::cases::quantity;
 

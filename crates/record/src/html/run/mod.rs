@@ -1,7 +1,8 @@
 //! The report of a run: one page that opens without a network.
 
 use maud::{Markup, PreEscaped, html};
-use wrasse_mission::{CaseOutcome, Outcome, VehicleCard};
+use wrasse_mission::{Outcome, VehicleCard};
+use wrasse_rehearsal::CaseOutcome;
 
 use super::{
     Head, Page, dotted, facts, figure, file_text, folded, json_in_script, section, table,

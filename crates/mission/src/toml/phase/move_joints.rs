@@ -1,0 +1,175 @@
+//! `move_joints`: all joints to a posture.
+
+use crate::reading::Reading;
+use crate::toml::MissionFile;
+use crate::toml::control::ArmLawFile;
+use crate::toml::phase::move_tool::{ShapeFile, shape};
+use crate::toml::phase::{duration, no_timing};
+use crate::toml::pose::{
+    AttitudeFile, AxesFile, attitude, axes, by_joint, place_of_position, posture, vector,
+};
+use schemars::JsonSchema;
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use wrasse_document::{Step, at};
+use wrasse_dynamics::JointKind;
+use wrasse_flight::trajectory::MotionLimits;
+use wrasse_flight::{JointTarget, JointTiming, Phase};
+use wrasse_spatial::Pose;
+use wrasse_vehicle::JOINTS;
+
+/// A move of all joints.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MoveJointsFile {
+    /// A posture that the vehicle file names.
+    pub(crate) to_posture: Option<String>,
+    /// Positions of turning joints by name; they replace the posture's, the others stay.
+    #[serde(default)]
+    pub(crate) to_deg: BTreeMap<String, f64>,
+    /// Positions of sliding joints by name.
+    #[serde(default)]
+    pub(crate) to_m: BTreeMap<String, f64>,
+    /// A pose of the tool, for which the inverse kinematics of the law finds the joints.
+    pub(crate) to_tool: Option<ToolPoseFile>,
+    /// Duration of a quintic from rest to rest.
+    pub(crate) duration_s: Option<f64>,
+    /// Instead of a duration: the shortest motion under limits.
+    pub(crate) limits: Option<JointLimitsFile>,
+}
+
+/// A pose of the tool.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ToolPoseFile {
+    /// Position.
+    pub(crate) position_m: [f64; 3],
+    /// Orientation.
+    pub(crate) attitude: AttitudeFile,
+    /// Axes of the pose.
+    #[serde(default = "crate::toml::pose::inertial")]
+    pub(crate) axes: AxesFile,
+}
+
+/// Limits of the joints' motion: rates are those of the vehicle, the rest is given here.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct JointLimitsFile {
+    /// Shape of the motion.
+    pub(crate) shape: ShapeFile,
+    /// Share of the vehicle's joint rates that is used (–).
+    pub(crate) rate_share: f64,
+    /// Largest acceleration of turning joints.
+    pub(crate) acceleration_deg_s2: f64,
+    /// Largest jerk of turning joints.
+    pub(crate) jerk_deg_s3: f64,
+    /// Largest acceleration of sliding joints.
+    #[serde(default = "one")]
+    pub(crate) acceleration_m_s2: f64,
+    /// Largest jerk of sliding joints.
+    #[serde(default = "one")]
+    pub(crate) jerk_m_s3: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+pub(super) fn move_joints(
+    r: &mut Reading<'_>,
+    i: usize,
+    m: &MoveJointsFile,
+    mission: &MissionFile,
+) -> Option<Phase<f64, JOINTS>> {
+    let path = |key| [Step::Key("phase"), Step::Index(i), Step::Key("move_joints"), Step::Key(key)];
+    let by_name = m.to_posture.is_some() || !m.to_deg.is_empty() || !m.to_m.is_empty();
+    let to = match (&m.to_tool, by_name) {
+        (Some(pose), false) => tool_target(r, i, pose, mission),
+        (None, true) => {
+            let mut to = [None; JOINTS];
+            if let Some(name) = &m.to_posture {
+                to = posture(r, &path("to_posture"), name).map_or(to, |q| q.map(Some));
+            }
+            by_joint(r, &path("to_deg"), &m.to_deg, JointKind::Revolute, |j, x| to[j] = Some(x));
+            by_joint(r, &path("to_m"), &m.to_m, JointKind::Prismatic, |j, x| to[j] = Some(x));
+            check_travel(r, i, &to);
+            JointTarget::Positions(to)
+        }
+        _ => {
+            let message = "joints are moved to positions or to a pose of the tool".into();
+            let help = "give to_posture, to_deg or to_m; or to_tool = { … }";
+            r.error(at!["phase", i, "move_joints"], message, help);
+            return None;
+        }
+    };
+    let timing = match (m.duration_s, &m.limits) {
+        (Some(given), None) => {
+            JointTiming::Duration(duration(r, &path("duration_s"), given, mission))
+        }
+        (None, Some(limits)) => joint_limits(r, i, limits),
+        (given, _) => return no_timing(r, at!["phase", i, "move_joints"], given),
+    };
+    Some(Phase::MoveJoints { to, timing })
+}
+
+fn tool_target(
+    r: &mut Reading<'_>,
+    i: usize,
+    pose: &ToolPoseFile,
+    mission: &MissionFile,
+) -> JointTarget<f64, JOINTS> {
+    let path = at!["phase", i, "move_joints", "to_tool"];
+    if mission.control.arm_law == ArmLawFile::FreeFloating && pose.axes == AxesFile::Inertial {
+        let message =
+            "where a floating base ends depends on the way: no joint positions belong to an \
+                       inertial pose"
+                .into();
+        r.error(path, message, "use move_tool, or axes = \"base\", or another arm_law");
+    }
+    let quat =
+        attitude(r, at!["phase", i, "move_joints", "to_tool", "attitude"], Some(pose.attitude));
+    JointTarget::Tool(Pose::from_quat(quat, vector(pose.position_m)), axes(pose.axes))
+}
+
+fn check_travel(r: &mut Reading<'_>, i: usize, to: &[Option<f64>; JOINTS]) {
+    for j in r.vehicle.robot.joints() {
+        let (Some(q), Some((lower, upper))) = (to[j], r.vehicle.limits[j].travel) else { continue };
+        if !(lower..=upper).contains(&q) {
+            let name = &r.vehicle.joint_names[j];
+            let [q, lower, upper] = [q, lower, upper].map(|x| r.shown(j, x));
+            let message =
+                format!("joint {name} shall go to {q}, outside its travel from {lower} to {upper}");
+            let above = at!["phase", i, "move_joints"];
+            let place = place_of_position(r, above, ["to_deg", "to_m", "to_posture"], name);
+            let help = "choose a position within the travel";
+            r.error(&place, message, help);
+        }
+    }
+}
+
+fn joint_limits(r: &mut Reading<'_>, i: usize, file: &JointLimitsFile) -> JointTiming<f64, JOINTS> {
+    let mut number =
+        |key: &str, x: f64| r.positive(at!["phase", i, "move_joints", "limits", key], x);
+    let share = number("rate_share", file.rate_share);
+    let turning = (
+        number("acceleration_deg_s2", file.acceleration_deg_s2).to_radians(),
+        number("jerk_deg_s3", file.jerk_deg_s3).to_radians(),
+    );
+    let sliding =
+        (number("acceleration_m_s2", file.acceleration_m_s2), number("jerk_m_s3", file.jerk_m_s3));
+    let mut limits = [MotionLimits { speed: 1.0, acceleration: 1.0, jerk: 1.0 }; JOINTS];
+    for j in r.vehicle.robot.joints() {
+        let (acceleration, jerk) = match r.vehicle.robot.joint(j).kind {
+            JointKind::Revolute => turning,
+            JointKind::Prismatic => sliding,
+        };
+        let Some(rate) = r.vehicle.limits[j].rate else {
+            let name = r.vehicle.joint_names[j].clone();
+            let message = format!("joint {name} has no rate limit in the vehicle file");
+            r.error(at!["phase", i, "move_joints", "limits"], message, "give duration_s instead");
+            continue;
+        };
+        limits[j] = MotionLimits { speed: rate * share, acceleration, jerk };
+    }
+    JointTiming::Limits { shape: shape(file.shape), limits }
+}
