@@ -1,6 +1,7 @@
 //! What others may ask the flight computer: what it believes, and how it judges its way.
 
 use crate::computer::FlightComputer;
+use crate::interface::Axes;
 use crate::law::Task;
 use crate::navigation::Navigation;
 use crate::phase::{Held, Path};
@@ -8,6 +9,20 @@ use crate::resolved_motion::{Assignment, task_jacobian};
 use crate::tool_pose::{Unreachable, joints_for_tool, wrist_too_far};
 use wrasse_dynamics::{Frame, Robot, State};
 use wrasse_spatial::{Pose, Quat, Scalar, SpatialVelocity};
+
+/// An arm at work.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ArmAtWork<T> {
+    /// Its tool.
+    pub tool: Frame<T>,
+    /// Which part of the tool's motion counts.
+    pub task: Task,
+    /// Whether its tool is on a way, or kept in its place.
+    pub follows_tool: bool,
+    /// Where the tool should be at the end of the period, and the axes of that; `None` where the joints
+    /// are guided.
+    pub reference: Option<(Pose<T>, Axes)>,
+}
 
 impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     /// What the navigation makes of gyro and star tracker, if it has them.
@@ -52,7 +67,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     /// end of the current line is out of reach. A floating base is taken as held here: where it ends
     /// depends on the way.
     pub fn end_out_of_reach(&self) -> Option<Unreachable<T>> {
-        let Path::Line(line, axes) = self.guidance.path else { return None };
+        let Path::Line(line, axes) = self.executive.arms[0].guidance.path else { return None };
         let X = line.at(line.duration()).X_NE;
         let (tool, law) = (&self.setup.assignment.tool, self.setup.assignment.law);
         joints_for_tool(&self.robot, tool, &self.still(), &X, axes, law, &self.setup.limits).err()
@@ -62,7 +77,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     /// attitude that is wanted there, and at its end; if that is out of reach. Seen from here, and the
     /// base as above.
     pub fn reach_along_line(&self) -> Option<[Pose<T>; 3]> {
-        let Path::Line(line, axes) = self.guidance.path else { return None };
+        let Path::Line(line, axes) = self.executive.arms[0].guidance.path else { return None };
         let (tool, law) = (&self.setup.assignment.tool, self.setup.assignment.law);
         let state = self.still();
         let is_reached = |t: T| {
@@ -89,7 +104,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
     /// the largest that there is (m), where that is too far and the arm has a spherical shoulder and
     /// wrist. Where the base gives way both are lengths as they count from the common centre of mass.
     pub fn wrist_too_far(&self) -> Option<(T, T)> {
-        let Path::Line(line, axes) = self.guidance.path else { return None };
+        let Path::Line(line, axes) = self.executive.arms[0].guidance.path else { return None };
         let X = line.at(line.duration()).X_NE;
         let (tool, law) = (&self.setup.assignment.tool, self.setup.assignment.law);
         wrist_too_far(&self.robot, tool, &self.still(), &X, axes, law)
@@ -102,16 +117,36 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
 
     /// Whether the current phase moves the tool along a line.
     pub fn follows_tool(&self) -> bool {
-        self.guidance.follows_tool()
+        self.executive.arms[0].guidance.follows_tool()
     }
 
     /// Whether nothing is driven in the current phase.
     pub fn coasts(&self) -> bool {
-        matches!(self.guidance.path, Path::Still(Held::Nothing))
+        matches!(self.executive.arms[0].guidance.path, Path::Still(Held::Nothing))
     }
 
-    /// Whether all phases are done.
+    /// Whether a fault of the current step leads to another step.
+    pub fn handles_faults(&self) -> bool {
+        self.executive.handles_faults()
+    }
+
+    /// The tool whose grip acts.
+    pub fn gripping_tool(&self) -> &Frame<T> {
+        &self.executive.gripping
+    }
+
+    /// The arms at work.
+    pub fn arms(&self) -> impl Iterator<Item = ArmAtWork<T>> + '_ {
+        self.executive.arms.iter().filter(|arm| arm.works).map(|arm| ArmAtWork {
+            tool: arm.assignment.tool,
+            task: arm.assignment.task,
+            follows_tool: arm.guidance.follows_tool(),
+            reference: arm.reference.map(|(motion, axes)| (motion.X_NE, axes)),
+        })
+    }
+
+    /// Whether all steps are done, as far as that is known before the sensors are read again.
     pub fn done(&self) -> bool {
-        self.guidance.is_done()
+        self.executive.is_done(self.setup.tuning.period)
     }
 }

@@ -328,33 +328,45 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
     ) -> (PeriodEnd<T>, T) {
         configure(robot, &self.belief.q, &mut self.end);
         let X_BE = self.end.posture.pose(robot, &setup.assignment.tool);
-        let X = match self.axes {
-            Axes::Inertial => self.belief.X_NB * X_BE,
-            Axes::Base => X_BE,
-        };
-        let R_error = self.reference.X_NE.rotation * X.rotation.transpose();
-        let error = SpatialVelocity::new(
-            Quat::from_matrix(&R_error).log(),
-            self.reference.X_NE.translation - X.translation,
-        );
-        let back = setup.tuning.tool_gain;
-        let innovation = self.innovation_at_tool(&X);
-        let wanted = WantedMotion {
-            V_NE: self.reference.V_NE_N + error * back,
-            // The error decays at the tool gain, but for the innovation of the base.
-            Vdot_NE: self.reference.Vdot_NE_N - (error * back + innovation) * back,
-        };
+        let at = (&self.reference, self.axes);
+        let wanted = self.wanted_motion(&self.belief.X_NB, setup, at, &X_BE);
         let to = Assignment { axes: self.axes, ..setup.assignment };
         let found = resolved_motion_in(robot, &to, &self.end, &self.belief, &wanted, joints);
         self.motion = found.0;
         (PeriodEnd::new(&self.end, &self.motion.rate.qdot), found.1)
     }
 
+    /// Motion that takes a tool at `X_BE` back to a reference in these axes, with the base at `X_NB`.
+    #[inline(always)]
+    pub(crate) fn wanted_motion(
+        &self,
+        X_NB: &Pose<T>,
+        setup: &Setup<T, J>,
+        (reference, axes): (&ToolMotion<T>, Axes),
+        X_BE: &Pose<T>,
+    ) -> WantedMotion<T> {
+        let X = match axes {
+            Axes::Inertial => *X_NB * *X_BE,
+            Axes::Base => *X_BE,
+        };
+        let R_error = reference.X_NE.rotation * X.rotation.transpose();
+        let error = SpatialVelocity::new(
+            Quat::from_matrix(&R_error).log(),
+            reference.X_NE.translation - X.translation,
+        );
+        let back = setup.tuning.tool_gain;
+        let innovation = self.innovation_at_tool(X_NB, axes, &X);
+        WantedMotion {
+            V_NE: reference.V_NE_N + error * back,
+            // The error decays at the tool gain, but for the innovation of the base.
+            Vdot_NE: reference.Vdot_NE_N - (error * back + innovation) * back,
+        }
+    }
+
     /// Twist of the tool, at `X`, that the law did not expect.
     #[inline(always)]
-    fn innovation_at_tool(&self, X_NE: &Pose<T>) -> SpatialVelocity<T> {
-        let X_NB = &self.belief.X_NB;
-        match self.axes {
+    fn innovation_at_tool(&self, X_NB: &Pose<T>, axes: Axes, X_NE: &Pose<T>) -> SpatialVelocity<T> {
+        match axes {
             Axes::Base => SpatialVelocity::zero(),
             Axes::Inertial => SpatialVelocity::new(
                 X_NB.rotation * self.innovation.angular,

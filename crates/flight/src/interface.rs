@@ -1,6 +1,7 @@
 //! The interface between what flies and the rest: plain data in, plain data out, once per control period.
 
 use crate::allocation::{AllocationReport, NoPostureUnloading};
+use crate::executive::StepEnd;
 use crate::trajectory::ToolMotion;
 use wrasse_dynamics::State;
 use wrasse_hardware::{ActuatorCommand, ActuatorReadings, SetPoint, TrackerReading};
@@ -17,6 +18,17 @@ pub struct Sensed<T, const J: usize> {
     pub actuators: ActuatorReadings<T>,
     /// What pushes at the tool, at its origin in its axes (N·m, N), by a force-torque sensor.
     pub tool_wrench_E: Option<SpatialForce<T>>,
+    /// What became of what the grip was told last, in the first period behind that.
+    pub grip: Option<GripAnswer>,
+}
+
+/// What a grip says of what it was told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GripAnswer {
+    /// It was done.
+    Done,
+    /// It could not be done.
+    Refused,
 }
 
 /// What is known of the base.
@@ -54,6 +66,7 @@ impl<T: Real, const J: usize> Sensed<T, J> {
             joints: JointReading::Known(state.q, state.v),
             actuators,
             tool_wrench_E: None,
+            grip: None,
         }
     }
 }
@@ -81,8 +94,12 @@ pub struct Command<T, const J: usize> {
     pub no_posture_unloading: Option<NoPostureUnloading<T>>,
     /// What the grip should do now.
     pub grip: Option<Grip>,
-    /// Number of the phase that this period belongs to; the number of phases when all are done.
+    /// Number of the step that this period belongs to; the number of steps when all are done.
     pub phase: usize,
+    /// Whether that step begins with it.
+    pub begins: bool,
+    /// The step that ended before it, and why.
+    pub ended: Option<(usize, StepEnd<T>)>,
     /// Where the tool should be at the end of the period.
     pub reference: ToolMotion<T>,
     /// The axes that the reference is in.

@@ -1,4 +1,4 @@
-//! Phases of a mission, as the flight computer knows them.
+//! Motions of an arm, as the flight computer knows them.
 
 use crate::allocation::ToolTask;
 use crate::interface::{Axes, Grip};
@@ -7,10 +7,7 @@ use crate::trajectory::{
 };
 use wrasse_spatial::{Pose, Scalar, Vec3};
 
-/// Most phases of one mission.
-pub const PHASES: usize = 32;
-
-/// One phase.
+/// What one arm does in a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Phase<T, const J: usize> {
     /// The tool goes on a straight line, turning on the geodesic.

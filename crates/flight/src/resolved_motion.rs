@@ -93,20 +93,20 @@ impl<T: Real, const J: usize> Belief<T, J> {
 
 /// The tool, and the law's Jacobian in one posture; about the base's origin, in base axes, where the
 /// attitude of the base changes nothing.
-struct LawJacobian<'a, T, const J: usize> {
+pub(crate) struct LawJacobian<'a, T, const J: usize> {
     p_BE: Vec3<T>,
     /// Whether a joint carries the tool.
     carries: [bool; J],
     /// Twist of the tool's body for unit rate of each joint.
-    columns: [SpatialVelocity<T>; J],
+    pub(crate) columns: [SpatialVelocity<T>; J],
     /// Twist that no joint causes.
-    drift: SpatialVelocity<T>,
+    pub(crate) drift: SpatialVelocity<T>,
     response: &'a BaseResponse<T, J>,
 }
 
 impl<'a, T: Real, const J: usize> LawJacobian<'a, T, J> {
     #[inline(always)]
-    fn new(
+    pub(crate) fn new(
         robot: &Robot<T, J>,
         to: &Assignment<T>,
         configuration: &Configuration<T, J>,
@@ -142,14 +142,14 @@ impl<'a, T: Real, const J: usize> LawJacobian<'a, T, J> {
 
     /// The six rows of the task at the tool.
     #[inline(always)]
-    fn rows(&self, task: Task, V: &SpatialVelocity<T>) -> [T; 6] {
+    pub(crate) fn rows(&self, task: Task, V: &SpatialVelocity<T>) -> [T; 6] {
         masked(&V.shifted_by(self.p_BE), task).to_array()
     }
 }
 
 /// Joints between the base and a body.
 #[inline(always)]
-fn carrying<T: Real, const J: usize>(robot: &Robot<T, J>, body: BodyId) -> [bool; J] {
+pub(crate) fn carrying<T: Real, const J: usize>(robot: &Robot<T, J>, body: BodyId) -> [bool; J] {
     let (mut carries, mut at) = ([false; J], body);
     for j in robot.joints().rev() {
         if at == BodyId::Link(j) {
@@ -160,7 +160,7 @@ fn carrying<T: Real, const J: usize>(robot: &Robot<T, J>, body: BodyId) -> [bool
     carries
 }
 
-fn masked<T: Real>(V: &SpatialVelocity<T>, task: Task) -> SpatialVelocity<T> {
+pub(crate) fn masked<T: Real>(V: &SpatialVelocity<T>, task: Task) -> SpatialVelocity<T> {
     match task {
         Task::Pose => *V,
         Task::Position => SpatialVelocity::new(Vec3::zero(), V.linear),
@@ -218,7 +218,7 @@ struct Solved<T, const J: usize> {
     V_NE_B: SpatialVelocity<T>,
     /// Columns at the tool, six rows of the task.
     rows: [[T; 6]; J],
-    inverse: DampedInverse<T>,
+    inverse: DampedInverse<T, 6>,
     y: [T; 6],
     /// Rates before all were slowed down, and the share of them that is left.
     free: [T; J],
@@ -265,7 +265,7 @@ impl<T: Real, const J: usize> Solved<T, J> {
 
 /// A twist that is given in the axes of the assignment.
 #[inline(always)]
-fn in_base_axes<T: Real, const J: usize>(
+pub(crate) fn in_base_axes<T: Real, const J: usize>(
     to: &Assignment<T>,
     belief: &Belief<T, J>,
     V: &SpatialVelocity<T>,
@@ -345,13 +345,13 @@ pub(crate) fn resolved_motion_in<T: Real, const J: usize>(
 }
 
 /// Time derivatives of the rows of the Jacobian at the tool, in base axes.
-struct RowRates<T, const J: usize> {
-    columns: [[T; 6]; J],
-    drift: [T; 6],
+pub(crate) struct RowRates<T, const J: usize> {
+    pub(crate) columns: [[T; 6]; J],
+    pub(crate) drift: [T; 6],
 }
 
 #[inline(always)]
-fn row_rates<T: Real, const J: usize>(
+pub(crate) fn row_rates<T: Real, const J: usize>(
     robot: &Robot<T, J>,
     to: &Assignment<T>,
     configuration: &Configuration<T, J>,

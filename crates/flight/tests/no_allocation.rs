@@ -195,6 +195,7 @@ fn a_control_period_with_sensors_and_actuators_allocates_nothing() {
         joints: JointReading::Encoders(at_rest().q),
         actuators: ActuatorReadings::default(),
         tool_wrench_E: Some(SpatialForce::new(vec3(1.0, 2.0, 3.0), vec3(10.0, 20.0, -30.0))),
+        grip: None,
     };
     let calls = allocations(|| {
         while !computer.done() {

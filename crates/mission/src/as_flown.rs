@@ -3,6 +3,7 @@
 use crate::toml::MissionFile;
 use serde_json::Value;
 use wrasse_document::{Document, Step};
+use wrasse_flight::{ArmLaw, Task};
 use wrasse_rehearsal::AttitudeActuation;
 use wrasse_rehearsal::figures::rounded;
 use wrasse_rehearsal::{Case, Setting};
@@ -24,6 +25,7 @@ pub(crate) fn as_flown(document: &Document, file: &MissionFile, case: &Case) -> 
             setting.value = value;
         }
     }
+    settings.extend(arm_settings(case));
     settings.extend(grasp_settings(case));
     settings
 }
@@ -111,6 +113,34 @@ fn decided(case: &Case, key: &str) -> Option<String> {
         }
         _ => return None,
     })
+}
+
+/// Tools, tasks and laws of phases that have their own.
+fn arm_settings(case: &Case) -> Vec<Setting> {
+    let mut settings = vec![];
+    for phase in &case.phases {
+        for assignment in phase.step.tasks().filter_map(|task| task.assignment) {
+            let frames = &case.vehicle.frames;
+            let tool = frames.iter().find(|f| f.frame == assignment.tool);
+            let task = match assignment.task {
+                Task::Pose => "pose",
+                Task::Position => "position",
+            };
+            let law = match assignment.law {
+                ArmLaw::Terrestrial => "terrestrial",
+                ArmLaw::AttitudeHeld => "attitude-held",
+                ArmLaw::FreeFloating => "free-floating",
+            };
+            let tool = tool.map_or("?", |f| f.name.as_str());
+            let key = format!("phase {}: tool, task and law", phase.name);
+            settings.push(Setting {
+                key,
+                value: format!("{tool}, {task}, {law}"),
+                origin: "tool and phase",
+            });
+        }
+    }
+    settings
 }
 
 /// The bounds of each grasp.

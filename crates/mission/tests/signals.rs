@@ -20,7 +20,7 @@ struct Beside {
 
 impl Beside {
     fn new(case: &Case) -> Self {
-        let alone = (0..case.quantities.len()).map(|i| Watch::new(case, Needs::of(&[i])));
+        let alone = (0..case.quantities.len()).map(|i| Watch::new(case, Needs::of(case, &[i])));
         Self { all: Watch::new(case, Needs::ALL), alone: alone.collect() }
     }
 }

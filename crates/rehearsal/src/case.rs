@@ -9,7 +9,7 @@ use serde::Serialize;
 use std::sync::Arc;
 use wrasse_dynamics::{Frame, JointKind, MassProperties, State};
 use wrasse_flight::allocation::Unit;
-use wrasse_flight::{Phase, Setup};
+use wrasse_flight::{Phase, Setup, Step};
 use wrasse_hardware::{AttitudeActuator, Sensors};
 use wrasse_spatial::{Pose, SpatialVelocity};
 use wrasse_vehicle::{Equipment, JOINTS, Vehicle, VehicleRobot};
@@ -50,8 +50,8 @@ pub struct Case {
     pub torque: [bool; JOINTS],
     /// How the flight computer is set up.
     pub setup: Setup<f64, JOINTS>,
-    /// What happens, one after the other.
-    pub phases: Vec<PhaseCase>,
+    /// What happens.
+    pub phases: Vec<StepCase>,
     /// What a sample of a sweep draws anew.
     pub dispersions: Vec<Dispersion>,
     /// What the flight computer takes the masses for, where they are otherwise.
@@ -136,15 +136,29 @@ pub enum PayloadStart {
     Free(Pose<f64>, SpatialVelocity<f64>),
 }
 
-/// A phase and what the mission knows of it beyond the flight computer.
+/// A step and what the mission knows of it beyond the flight computer.
 #[derive(Debug, Clone)]
-pub struct PhaseCase {
+pub struct StepCase {
     /// Its name.
     pub name: String,
-    /// What is done in it.
-    pub phase: Phase<f64, JOINTS>,
-    /// What a grasp allows between tool and grip; nothing where the phase is none.
+    /// What is done in it, until when, and what comes next.
+    pub step: Step<f64, JOINTS>,
+    /// What a grasp allows between tool and grip; nothing where the step is none.
     pub grasp_bounds: Option<GripOffset>,
+}
+
+impl StepCase {
+    /// What the first arm does.
+    pub fn motion(&self) -> Option<&Phase<f64, JOINTS>> {
+        self.step.tasks().next().map(|task| &task.motion)
+    }
+
+    /// The same step with another motion of the first arm.
+    pub(crate) fn set_motion(&mut self, motion: &Phase<f64, JOINTS>) {
+        if let Some(task) = self.step.tasks.iter_mut().flatten().next() {
+            task.motion = *motion;
+        }
+    }
 }
 
 impl Case {
@@ -203,8 +217,8 @@ impl Case {
             }
         }
     }
-    pub(crate) fn flight_phases(&self) -> Vec<Phase<f64, JOINTS>> {
-        self.phases.iter().map(|p| p.phase).collect()
+    pub(crate) fn steps(&self) -> Vec<Step<f64, JOINTS>> {
+        self.phases.iter().map(|p| p.step).collect()
     }
     /// Whether the fitted equipment can take up momentum.
     pub fn stores_momentum(&self) -> bool {

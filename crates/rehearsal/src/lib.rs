@@ -24,7 +24,7 @@ mod true_plant;
 
 pub use applied_wrench::AppliedWrench;
 pub use case::{
-    AttitudeActuation, Believed, Case, FailureCase, PayloadCase, PayloadStart, PhaseCase, Setting,
+    AttitudeActuation, Believed, Case, FailureCase, PayloadCase, PayloadStart, Setting, StepCase,
 };
 pub use flight_loop::fly;
 pub use notices::overlap::looked_at;
@@ -32,12 +32,14 @@ pub use outcome::{
     CaseOutcome, Channel, DemandSample, End, Event, EventKind, Ledger, Metric, PlanLine, Snapshot,
     SnapshotBox, Telemetry, Verdict,
 };
+pub use plan::step_cycles::cycle_without_attempts;
 pub use run::{RunOptions, run_case};
 pub use sampled_loops::{REMARK_BELOW, SampledLoop, sampled_loops};
 pub use samples::dispersion::{Dispersion, Distribution, Target};
 pub use samples::{SampleOutcome, SamplePlan, fly_sample, plan_samples};
 pub use signals::quantity::{Kind, Quantity, Statistic, Statistics, is_unit};
 pub use signals::requirement::{Comparison, Requirement};
+pub use signals::tool_signals::watched_tools;
 pub use signals::watch::Watch;
 pub use signals::{Needs, quantities};
 pub use simulation::{Observer, Plant, Simulation};

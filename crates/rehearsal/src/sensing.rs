@@ -3,7 +3,7 @@
 use crate::applied_wrench::felt;
 use crate::case::Case;
 use crate::case_world::CaseWorld;
-use wrasse_dynamics::kinematics;
+use wrasse_dynamics::{Frame, kinematics};
 use wrasse_flight::{BaseReading, JointReading, Sensed};
 use wrasse_hardware::Sensors;
 use wrasse_spatial::Quat;
@@ -26,14 +26,18 @@ impl Sensing {
         Self { suite, blinded: false, sensed_at: Quat::identity() }
     }
 
-    /// What the sensors say now.
-    pub(crate) fn read(&mut self, case: &Case, world: &CaseWorld) -> Sensed<f64, JOINTS> {
+    /// What the sensors say now; `tool` has the force-torque sensor.
+    pub(crate) fn read(
+        &mut self,
+        case: &Case,
+        world: &CaseWorld,
+        tool: &Frame<f64>,
+    ) -> Sensed<f64, JOINTS> {
         let (state, period) = (world.state(), case.period());
         self.sensed_at = world.quat_NB();
         let mut perfect = Sensed::perfect(&state, world.actuator_readings());
         if case.measures_wrench {
             let k = kinematics(world.robot(), &state);
-            let tool = &case.setup.assignment.tool;
             perfect.tool_wrench_E = Some(felt(&case.wrenches, tool, world.time(), &k));
         }
         let Some((sensors, suite)) = &mut self.suite else { return perfect };

@@ -1,10 +1,10 @@
 //! A flight under way: a flight computer, what it flies, and what passes between them. Running, planning,
 //! sweeps and whoever else looks on are observers of this one loop, or another plant under it.
 
-use crate::case::Case;
+use crate::case::{Case, StepCase};
 use crate::outcome::{End, Event, EventKind};
-use crate::plan::cannot_begin;
-use wrasse_flight::{Command, FlightComputer, Grip, Sensed};
+use crate::plan::{cannot_begin, no_way};
+use wrasse_flight::{Command, Condition, FlightComputer, Grip, GripAnswer, Sensed, StepEnd};
 use wrasse_hardware::SetPoint;
 use wrasse_vehicle::JOINTS;
 
@@ -73,6 +73,8 @@ pub struct Simulation<'a, P> {
     periods: u64,
     /// The step that the last period belonged to.
     phase: Option<usize>,
+    /// What the grip has to say of what it was told last.
+    answer: Option<GripAnswer>,
     events: Vec<Event>,
 }
 
@@ -83,7 +85,7 @@ impl<'a, P: Plant> Simulation<'a, P> {
         plant: P,
         computer: FlightComputer<f64, JOINTS>,
     ) -> Self {
-        Self { case, plant, computer, periods: 0, phase: None, events: vec![] }
+        Self { case, plant, computer, periods: 0, phase: None, answer: None, events: vec![] }
     }
 
     /// The case that is flown.
@@ -149,9 +151,9 @@ impl<'a, P: Plant> Simulation<'a, P> {
     ) -> Result<(), End> {
         self.plant.begin(&mut self.computer, events);
         let command = self.next_command()?;
-        if self.phase.replace(command.phase) != Some(command.phase)
-            && let Some(phase) = self.case.phases.get(command.phase)
-        {
+        self.phase = Some(command.phase);
+        events.extend(command.ended.and_then(|(step, end)| step_ended(self, step, &end)));
+        if let Some(phase) = self.case.phases.get(command.phase).filter(|_| command.begins) {
             let text = format!("phase {}", phase.name);
             events.push(Event { time_s: self.time(), kind: EventKind::Phase, text });
         }
@@ -166,7 +168,7 @@ impl<'a, P: Plant> Simulation<'a, P> {
     /// What the flight computer says to what the sensors say.
     fn next_command(&mut self) -> Result<Command<f64, JOINTS>, End> {
         let time_s = self.time();
-        let sensed = self.plant.sense(&self.computer);
+        let sensed = Sensed { grip: self.answer.take(), ..self.plant.sense(&self.computer) };
         let command =
             self.computer.step(&sensed).map_err(|bad| cannot_begin(self.case, &bad, time_s))?;
         if let Some(what) = not_finite(self.case, &command) {
@@ -185,12 +187,41 @@ impl<'a, P: Plant> Simulation<'a, P> {
         let time_s = self.time();
         match self.plant.grip(grip, command.phase, &mut self.computer) {
             Ok(text) => {
+                self.answer = Some(GripAnswer::Done);
+                events.push(Event { time_s, kind: EventKind::Grip, text });
+                Ok(())
+            }
+            Err(text) if self.computer.handles_faults() => {
+                self.answer = Some(GripAnswer::Refused);
                 events.push(Event { time_s, kind: EventKind::Grip, text });
                 Ok(())
             }
             Err(reason) => Err(End::Stopped { phase: phase.name.clone(), time_s, reason }),
         }
     }
+}
+
+/// What to say of the end of a step; nothing where its motion came to its end.
+fn step_ended<P: Plant>(
+    flight: &Simulation<'_, P>,
+    step: usize,
+    end: &StepEnd<f64>,
+) -> Option<Event> {
+    let StepCase { name, step, .. } = flight.case.phases.get(step)?;
+    let (kind, text) = match end {
+        StepEnd::Met if step.until == Condition::Done => return None,
+        StepEnd::Met => (EventKind::Condition, format!("step {name}: its condition holds")),
+        StepEnd::Timeout => {
+            let time = step.timeout.unwrap_or_default();
+            (EventKind::Fault, format!("step {name}: timeout after {time} s"))
+        }
+        StepEnd::Refused => (EventKind::Fault, format!("step {name}: the grip was refused")),
+        StepEnd::Blocked(reason) => {
+            let why = no_way(flight.case, reason);
+            (EventKind::Fault, format!("step {name} cannot begin: {why}"))
+        }
+    };
+    Some(Event { time_s: flight.time(), kind, text })
 }
 
 /// What of a command is not finite, if anything: no actuator can be told it.

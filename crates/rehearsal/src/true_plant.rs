@@ -52,7 +52,7 @@ impl<'a> Simulation<'a, TruePlant<'a>> {
     pub fn with_stepper(case: &'a Case, stepper: Stepper) -> Self {
         let plant = TruePlant::new(case, stepper);
         let robot = plant.believed_robot();
-        let computer = FlightComputer::new(case.setup, &robot, &case.flight_phases());
+        let computer = FlightComputer::new(case.setup, &robot, &case.steps());
         Self::at_start(case, plant, computer)
     }
 
@@ -179,8 +179,8 @@ impl Plant for TruePlant<'_> {
         }
     }
 
-    fn sense(&mut self, _: &FlightComputer<f64, JOINTS>) -> Sensed<f64, JOINTS> {
-        self.sensing.read(self.case, &self.world)
+    fn sense(&mut self, computer: &FlightComputer<f64, JOINTS>) -> Sensed<f64, JOINTS> {
+        self.sensing.read(self.case, &self.world, computer.tool())
     }
 
     fn command(&mut self, command: &Command<f64, JOINTS>) {
@@ -228,7 +228,7 @@ impl Plant for TruePlant<'_> {
     ) -> Result<String, String> {
         let text = match grip {
             Grip::Grasp(i) => {
-                let tool = *computer.tool();
+                let tool = *computer.gripping_tool();
                 self.grasp(&tool, i, self.case.phases[phase].grasp_bounds)?
             }
             Grip::Release(i) => self.release(i)?,

@@ -12,6 +12,11 @@ pub enum Ellery2004 {}
 /// Jacobian matrix*, IEEE Transactions on Robotics and Automation 5(3), 1989.
 #[derive(Debug)]
 pub enum UmetaniYoshida1989 {}
+
+/// K. Yoshida, R. Kurazume, Y. Umetani, *Dual arm coordination in space free-flying robot*, IEEE
+/// International Conference on Robotics and Automation, 1991.
+#[derive(Debug)]
+pub enum YoshidaKurazumeUmetani1991 {}
 /// Z. Vafa, S. Dubowsky, *The kinematics and dynamics of space manipulators: the virtual
 /// manipulator approach*, International Journal of Robotics Research 9(4), 1990.
 #[derive(Debug)]

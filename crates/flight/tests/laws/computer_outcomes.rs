@@ -7,8 +7,8 @@ use crate::worst::Worst;
 use wrasse_dynamics::{State, kinematics, momentum};
 use wrasse_flight::trajectory::{MotionLimits, ProfileShape, Quantity};
 use wrasse_flight::{
-    ArmLaw, Axes, FlightComputer, Grip, Held, JointTarget, JointTiming, Measurement, NoWay, PHASES,
-    Phase, Target, Timing,
+    ArmLaw, Axes, FlightComputer, Grip, Held, JointTarget, JointTiming, Measurement, NoWay, Phase,
+    STEPS, Target, Timing,
 };
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Vec3, vec3};
 
@@ -83,10 +83,10 @@ fn without_phases_all_is_done_as_soon_as_it_has_looked() {
 
 #[test]
 fn there_is_room_for_so_many_phases_and_no_more() {
-    let phases = [hold(Held::Joints, PERIOD); PHASES + 5];
+    let phases = [hold(Held::Joints, PERIOD); STEPS + 5];
     let mut flight =
         Flight::new(&setup(ArmLaw::Terrestrial, Measurement::None), at_rest(), &phases);
-    assert_eq!(flight.fly_on().len(), PHASES);
+    assert_eq!(flight.fly_on().len(), STEPS);
 }
 
 /// A tool move whose numbers are no motion, after one that is.

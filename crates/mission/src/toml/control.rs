@@ -180,15 +180,8 @@ pub(crate) fn setup(
         assignment: Assignment {
             tool: guided_tool(r, &path("tool"), c.tool.as_deref()),
             axes: Axes::Inertial,
-            task: match c.task {
-                TaskFile::Pose => Task::Pose,
-                TaskFile::Position => Task::Position,
-            },
-            law: match c.arm_law {
-                ArmLawFile::Terrestrial => ArmLaw::Terrestrial,
-                ArmLawFile::AttitudeHeld => ArmLaw::AttitudeHeld,
-                ArmLawFile::FreeFloating => ArmLaw::FreeFloating,
-            },
+            task: task(c.task),
+            law: law(c.arm_law),
             damped_below: r.positive(&path("damped_below"), c.damped_below),
         },
         joints,
@@ -201,6 +194,21 @@ pub(crate) fn setup(
         tuning: tuning(r, c),
         limits,
         position_driven: [false; JOINTS],
+    }
+}
+
+pub(crate) fn task(file: TaskFile) -> Task {
+    match file {
+        TaskFile::Pose => Task::Pose,
+        TaskFile::Position => Task::Position,
+    }
+}
+
+pub(crate) fn law(file: ArmLawFile) -> ArmLaw {
+    match file {
+        ArmLawFile::Terrestrial => ArmLaw::Terrestrial,
+        ArmLawFile::AttitudeHeld => ArmLaw::AttitudeHeld,
+        ArmLawFile::FreeFloating => ArmLaw::FreeFloating,
     }
 }
 
@@ -221,7 +229,11 @@ fn tuning(r: &mut Reading<'_>, c: &ControlFile) -> Tuning<f64> {
 }
 
 /// The tool that is guided; an error if it was chosen and no joint moves it.
-fn guided_tool(r: &mut Reading<'_>, path: &[Step<'_>], name: Option<&str>) -> Frame<f64> {
+pub(crate) fn guided_tool(
+    r: &mut Reading<'_>,
+    path: &[Step<'_>],
+    name: Option<&str>,
+) -> Frame<f64> {
     let before = r.complaints.len();
     let guided = tool(r, path, name);
     if let Some(name) = name

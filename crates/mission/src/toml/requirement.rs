@@ -5,7 +5,9 @@ use crate::toml::MissionFile;
 use std::ops::Range;
 use wrasse_document::{Complaint, Document, UNKNOWN, at, closest};
 use wrasse_dynamics::JointKind;
-use wrasse_rehearsal::{Comparison, Quantity, Requirement, Statistic, is_unit, quantities};
+use wrasse_rehearsal::{
+    Comparison, Quantity, Requirement, Statistic, is_unit, quantities, watched_tools,
+};
 
 /// The quantities that are watched, and what is required of them.
 pub(crate) fn requirements(
@@ -20,7 +22,7 @@ pub(crate) fn requirements(
         .enumerate()
         .map(|(j, name)| (name.clone(), vehicle.robot.joint(j).kind == JointKind::Revolute))
         .collect();
-    let quantities = quantities(&joints);
+    let quantities = quantities(watched_tools(vehicle), &joints);
     let mut requirements = vec![];
     for (i, text) in file.requirements.iter().enumerate() {
         match parse(text, &quantities, &phases) {
@@ -201,13 +203,13 @@ mod tests {
 
     fn parse(text: &str) -> Result<Requirement, BadRequirement> {
         let phases = ["reach".to_owned(), "hold on".to_owned()];
-        super::parse(text, &quantities(&[("elbow".into(), true)]), &phases)
+        super::parse(text, &quantities(&[], &[("elbow".into(), true)]), &phases)
     }
 
     /// The verdict on a requirement when its quantity was seen to have these values in each phase.
     #[track_caller]
     fn verdict(text: &str, phases: [&[f64]; 2]) -> Verdict {
-        let quantities = quantities(&[("elbow".into(), true)]);
+        let quantities = quantities(&[], &[("elbow".into(), true)]);
         let requirement = parse(text).expect("a sound requirement");
         let mut watch = Statistics::new(quantities.clone(), 2);
         for (phase, values) in phases.iter().enumerate() {
@@ -268,7 +270,7 @@ mod tests {
 
     #[test]
     fn every_unit_belongs_to_a_metric_and_every_metric_has_a_unit() {
-        for quantity in quantities(&[("a".into(), true), ("b".into(), false)]) {
+        for quantity in quantities(&["t".into()], &[("a".into(), true), ("b".into(), false)]) {
             let units = quantity.kind.units();
             assert!(!units.is_empty(), "{}", quantity.name);
             assert!(units.iter().any(|unit| quantity.kind.scale_of(unit) == Some(1.0)), "no SI");

@@ -38,7 +38,7 @@ const LIMITS: usize = 12;
 
 /// Limits that were reached or passed, and units that failed.
 fn limits(case: &CaseOutcome) -> Vec<&Event> {
-    let told = |kind| matches!(kind, EventKind::Limit | EventKind::Failure);
+    let told = |kind| matches!(kind, EventKind::Limit | EventKind::Failure | EventKind::Fault);
     case.events.iter().filter(|event| told(event.kind)).collect()
 }
 

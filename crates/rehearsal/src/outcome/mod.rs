@@ -128,6 +128,10 @@ pub enum EventKind {
     Limit,
     /// A unit failed, or the flight computer was told of it.
     Failure,
+    /// The condition of a step held.
+    Condition,
+    /// A step ended otherwise: by a timeout, a refused grasp, or because it could not begin.
+    Fault,
 }
 
 /// Something that happened.

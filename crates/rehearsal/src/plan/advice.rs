@@ -1,11 +1,11 @@
 //! What would help where a way cannot be gone. Every piece of advice is planned before it is given: the
 //! phase is gone through with the very numbers that are told.
 
-use crate::case::Case;
+use crate::case::{Case, StepCase};
 use crate::outcome::End;
 use crate::plan::other_postures::other_postures;
 use crate::plan::{Plan, plan_through};
-use wrasse_flight::{Axes, JointTarget, Phase, Target, Task, Timing};
+use wrasse_flight::{Axes, Held, JointTarget, Phase, Target, Task, Timing};
 use wrasse_spatial::{Pose, Vec3};
 use wrasse_vehicle::JOINTS;
 
@@ -70,8 +70,14 @@ impl Search<'_> {
     /// The case with another phase in place of the one that cannot be gone.
     fn with(&self, phase: &Phase<f64, JOINTS>) -> Case {
         let mut case = self.case.clone();
-        case.phases[self.phase].phase = *phase;
+        case.phases[self.phase].set_motion(phase);
         case
+    }
+
+    /// What the first arm does in the phase that cannot be gone.
+    fn motion(&self) -> Phase<f64, JOINTS> {
+        let nothing = Phase::Hold { what: Held::Joints, duration: 0.0 };
+        self.case.phases[self.phase].motion().copied().unwrap_or(nothing)
     }
 
     /// How much of the way can be gone.
@@ -104,7 +110,7 @@ impl Search<'_> {
     /// How much of a turn in place can be gone.
     fn less_turn(&mut self) -> Option<String> {
         let Phase::MoveTool { target: Target::By { displacement, turn }, axes, timing } =
-            self.case.phases[self.phase].phase
+            self.motion()
         else {
             return None;
         };
@@ -146,7 +152,7 @@ impl Search<'_> {
             Axes::Inertial => self.tool[0].translation,
             Axes::Base => self.tool[1].translation,
         };
-        let way = match self.case.phases[self.phase].phase {
+        let way = match self.motion() {
             Phase::MoveTool { target: Target::By { displacement, .. }, .. } => displacement,
             Phase::MoveTool { target: Target::To(X), axes, .. }
             | Phase::MoveJoints { to: JointTarget::Tool(X, axes), .. } => {
@@ -166,7 +172,7 @@ impl Search<'_> {
             };
             Vec3::from_array(rounded(from + way))
         };
-        Some(match self.case.phases[self.phase].phase {
+        Some(match self.motion() {
             Phase::MoveTool { target: Target::By { turn, .. }, axes, timing } => {
                 Phase::MoveTool { target: Target::By { displacement: way, turn }, axes, timing }
             }
@@ -184,8 +190,7 @@ impl Search<'_> {
 
     /// The same way in more time.
     fn slower(&mut self) -> Option<String> {
-        let Phase::MoveTool { target, axes, timing: Timing::Duration(duration) } =
-            self.case.phases[self.phase].phase
+        let Phase::MoveTool { target, axes, timing: Timing::Duration(duration) } = self.motion()
         else {
             return None;
         };
@@ -199,12 +204,13 @@ impl Search<'_> {
 
     /// The tool's attitude left free.
     fn position_alone(&mut self) -> Option<String> {
-        let moves = matches!(self.case.phases[self.phase].phase, Phase::MoveTool { .. });
+        let moves = matches!(self.motion(), Phase::MoveTool { .. });
         if !moves || self.case.setup.assignment.task == Task::Position {
             return None;
         }
         let mut case = self.case.clone();
         case.setup.assignment.task = Task::Position;
+        case.phases.iter_mut().for_each(leave_attitude_free);
         let helps = self.passes(&case);
         helps.then(|| "control.task = \"position\", which leaves the tool's attitude free".into())
     }
@@ -246,4 +252,13 @@ fn two_digits(x: f64) -> f64 {
 /// To a tenth of a millimetre (m).
 fn rounded(v: Vec3<f64>) -> [f64; 3] {
     v.to_array().map(|x| (x * 1e4).round() / 1e4)
+}
+
+/// The tools of a step need not be turned in any way.
+fn leave_attitude_free(step: &mut StepCase) {
+    for task in step.step.tasks.iter_mut().flatten() {
+        if let Some(assignment) = &mut task.assignment {
+            assignment.task = Task::Position;
+        }
+    }
 }

@@ -28,7 +28,7 @@ pub(crate) fn believed_flight(case: &Case) -> Simulation<'_, BelievedPlant<'_>> 
     let mut setup = case.setup;
     (setup.base.actuation, setup.base.position_hold) = (Actuation::Ideal(None), None);
     let plant = BelievedPlant::new(case);
-    let computer = FlightComputer::new(setup, &plant.robot(), &case.flight_phases());
+    let computer = FlightComputer::new(setup, &plant.robot(), &case.steps()).planning();
     Simulation::at_start(case, plant, computer)
 }
 
@@ -125,7 +125,7 @@ impl Plant for BelievedPlant<'_> {
     ) -> Result<String, String> {
         match grip {
             Grip::Grasp(i) => {
-                self.grasp(*computer.tool(), i, self.case.phases[phase].grasp_bounds)?;
+                self.grasp(*computer.gripping_tool(), i, self.case.phases[phase].grasp_bounds)?;
             }
             Grip::Release(i) => self.release(i),
         }

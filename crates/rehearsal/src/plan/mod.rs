@@ -4,14 +4,18 @@
 pub(crate) mod advice;
 mod believed_plant;
 mod other_postures;
+pub(crate) mod step_cycles;
+mod upper_bound;
 
 use crate::case::Case;
 use crate::outcome::{End, Event, PlanLine};
 use crate::sampled_loops::{SampledLoop, joint_gain, joint_loop, sampled_loops};
 use crate::signals::arm_shape::{reach_margin, smallest_singular_value};
+use crate::signals::observe::tool_error;
 use crate::simulation::{Observer, Simulation};
 use believed_plant::{BelievedPlant, believed_flight};
-use wrasse_dynamics::{State, kinematics};
+use upper_bound::upper_bound;
+use wrasse_dynamics::{Kinematics, State, kinematics};
 use wrasse_flight::{BadPhase, Command, FlightComputer, LONGEST, NoWay, Task};
 use wrasse_spatial::{Pose, Quat, Vec3};
 use wrasse_vehicle::JOINTS;
@@ -33,6 +37,8 @@ pub(crate) struct Plan {
     pub(crate) blocked: Option<End>,
     /// Pose of the tool as the last phase begins: in inertial axes, and in those of the base.
     pub(crate) tool: [Pose<f64>; 2],
+    /// The longest that each step took (control periods); zero for one that was not gone through.
+    pub(crate) longest: Vec<u64>,
 }
 
 /// What is noted of a phase while it is gone through.
@@ -67,21 +73,21 @@ impl PhaseNotes {
     };
 }
 
-/// Go through all phases.
+/// Go through all steps.
 pub(crate) fn plan(case: &Case) -> Plan {
-    plan_through(case, usize::MAX)
+    let mut plan = plan_through(case, usize::MAX);
+    plan.lines.extend(upper_bound(case, &plan));
+    plan
 }
 
-/// Go through the phases up to this one.
+/// Go through the steps until this one has ended.
 pub(crate) fn plan_through(case: &Case, last: usize) -> Plan {
     let mut flight = believed_flight(case);
-    let tool = believed_tool(&flight);
-    let mut planner =
-        Planner { lines: loop_lines(case), phase: 0, notes: PhaseNotes::NONE, tool, reason: None };
+    let mut planner = Planner::new(case, last, believed_tool(&flight));
     let mut blocked = None;
-    while !flight.is_done() && flight.periods() < u64::from(LONGEST) && planner.phase <= last {
+    while !flight.is_done() && flight.periods() < u64::from(LONGEST) && !planner.has_passed {
         let stop = flight.step(&mut planner).err();
-        if planner.phase > last {
+        if planner.has_passed {
             break;
         }
         if let Some(reason) = planner.reason.take() {
@@ -97,11 +103,12 @@ pub(crate) fn plan_through(case: &Case, last: usize) -> Plan {
         }
     }
     let periods = flight.periods();
-    if blocked.is_none() && planner.phase <= last {
+    if blocked.is_none() && !planner.has_passed {
         planner.close(case);
         blocked = (!flight.is_done()).then(|| infeasible(flight.too_long()));
     }
-    Plan { lines: planner.lines, periods, blocked, tool: planner.tool }
+    let Planner { lines, tool, longest, .. } = planner;
+    Plan { lines, periods, blocked, tool, longest }
 }
 
 /// What stops a flight in the planning: nothing has moved.
@@ -121,10 +128,31 @@ struct Planner {
     tool: [Pose<f64>; 2],
     /// Why the way cannot be gone on.
     reason: Option<String>,
+    /// The step behind whose end nothing is of interest, and whether it has ended.
+    last: usize,
+    has_passed: bool,
+    /// The longest that each step took (control periods).
+    longest: Vec<u64>,
 }
 
 impl Planner {
+    fn new(case: &Case, last: usize, tool: [Pose<f64>; 2]) -> Self {
+        Self {
+            lines: loop_lines(case),
+            phase: 0,
+            notes: PhaseNotes::NONE,
+            tool,
+            reason: None,
+            last,
+            has_passed: false,
+            longest: vec![0; case.phases.len()],
+        }
+    }
+
     fn close(&mut self, case: &Case) {
+        if let Some(longest) = self.longest.get_mut(self.phase) {
+            *longest = self.notes.periods.max(*longest);
+        }
         self.lines.extend(finished(case, self.phase, &self.notes));
         self.notes = PhaseNotes::NONE;
     }
@@ -137,8 +165,9 @@ impl<'a> Observer<BelievedPlant<'a>> for Planner {
         command: &Command<f64, JOINTS>,
         _: &mut Vec<Event>,
     ) {
-        if command.phase != self.phase {
+        if command.phase != self.phase || command.begins {
             self.close(flight.case());
+            self.has_passed |= self.phase == self.last && flight.periods() > 0;
             self.phase = command.phase;
             self.tool = believed_tool(flight);
         }
@@ -182,7 +211,7 @@ fn look(
         return Some(reason);
     }
     let k = kinematics(computer.robot(), &state);
-    let singular = smallest_singular_value(&computer.task_jacobian(), case.setup.assignment.task);
+    let singular = smallest_singular_value(&computer.task_jacobian(), computer.task());
     let reach = reach_margin(&k, computer.tool()).unwrap_or(f64::INFINITY);
     let R = case.start.X_NB.rotation.transpose() * state.X_NB.rotation;
     notes.base_turn = Quat::from_matrix(&R).log().norm();
@@ -210,11 +239,14 @@ fn look(
             limited = format!(", joint {name} at its rate limit of {}", case.rate_text(j, rate));
         }
     }
+    if let Some(reason) = look_at_other_arms(case, computer, &k) {
+        return Some(reason);
+    }
     if !computer.follows_tool() {
         return None;
     }
     notes.singular = notes.singular.min(singular);
-    let (off, turned) = match (case.setup.assignment.task, computer.believed_tool_error()) {
+    let (off, turned) = match (computer.task(), computer.believed_tool_error()) {
         (Task::Pose, error) => error,
         (Task::Position, (off, _)) => (off, 0.0),
     };
@@ -228,6 +260,28 @@ fn look(
             condition(singular, reach, notes),
             about_the_end(case, computer)
         )
+    })
+}
+
+/// Which tool of the arms beside the first one falls behind its reference, if one does.
+fn look_at_other_arms(
+    case: &Case,
+    computer: &FlightComputer<f64, JOINTS>,
+    k: &Kinematics<'_, f64, JOINTS>,
+) -> Option<String> {
+    computer.arms().skip(1).filter(|arm| arm.follows_tool).find_map(|arm| {
+        let (off, turned) = tool_error(k, &k.pose(&arm.tool), arm.reference?);
+        let (off, turned) = (off.norm(), turned.norm());
+        let counts = arm.task == Task::Pose && turned > OFF_THE_WAY.1;
+        (off > OFF_THE_WAY.0 || counts).then(|| {
+            let named = case.vehicle.frames.iter().find(|frame| frame.frame == arm.tool);
+            format!(
+                "the tool {} falls behind its reference by {:.3} mm and {:.4} deg",
+                named.map_or("of another arm", |frame| frame.name.as_str()),
+                off * 1e3,
+                turned.to_degrees()
+            )
+        })
     })
 }
 
@@ -250,7 +304,7 @@ fn look_at_loops(
 /// Whether the end of the way is out of reach at any speed, what is missing, and what stops the arm.
 fn about_the_end(case: &Case, computer: &FlightComputer<f64, JOINTS>) -> String {
     let at_end = computer.end_out_of_reach().filter(|left| left.position_error.is_finite());
-    let (Task::Pose, Some(left)) = (case.setup.assignment.task, at_end) else {
+    let (Task::Pose, Some(left)) = (computer.task(), at_end) else {
         return String::new();
     };
     let mut text = format!(
@@ -325,12 +379,21 @@ fn finished(case: &Case, phase: usize, notes: &PhaseNotes) -> Option<PlanLine> {
     Some(PlanLine { phase: phase.name.clone(), text })
 }
 
-/// A phase that cannot begin.
+/// A step that cannot begin.
 pub(crate) fn cannot_begin(case: &Case, bad: &BadPhase<f64>, time_s: f64) -> End {
-    let reason = match bad.reason {
+    let phase = case.phases.get(bad.phase).map_or(String::new(), |p| p.name.clone());
+    End::Stopped { phase, time_s, reason: no_way(case, &bad.reason) }
+}
+
+/// Why a step cannot begin, in words.
+pub(crate) fn no_way(case: &Case, reason: &NoWay<f64>) -> String {
+    match reason {
         NoWay::Numbers(numbers) => numbers.to_string(),
         NoWay::TooLong { duration, longest } => {
             format!("it would take {duration:.3e} s, a phase takes at most {longest:.3e} s")
+        }
+        NoWay::Exhausted(most) => {
+            format!("it has begun {most} times, as often as its attempts allow")
         }
         NoWay::Unreachable(u) => {
             let because = match u.joint {
@@ -345,7 +408,5 @@ pub(crate) fn cannot_begin(case: &Case, bad: &BadPhase<f64>, time_s: f64) -> End
                 u.rotation_error.to_degrees()
             )
         }
-    };
-    let phase = case.phases.get(bad.phase).map_or(String::new(), |p| p.name.clone());
-    End::Stopped { phase, time_s, reason }
+    }
 }

@@ -7,6 +7,7 @@ pub(crate) mod arm_shape;
 pub(crate) mod observe;
 pub(crate) mod quantity;
 pub(crate) mod requirement;
+pub(crate) mod tool_signals;
 pub(crate) mod watch;
 
 use crate::case::AttitudeActuation;
@@ -14,6 +15,7 @@ use crate::case::Case;
 use crate::signals::actuator_demand::{ActuatorDemand, gimbal_rates, wheel_speeds};
 use crate::signals::observe::{Observation, Track, largest, there};
 use crate::signals::quantity::{Kind, Quantity, Statistic};
+use crate::signals::tool_signals::{TOOL_SIGNALS, TOOLS, ToolError, watched_tools};
 use Statistic::{Final, Max, Min, Rms};
 use wrasse_dynamics::JointKind;
 use wrasse_flight::Command;
@@ -72,9 +74,10 @@ impl Needs {
             motors: self.motors || other.motors,
         }
     }
-    /// What the signals of these numbers need.
-    pub fn of(numbers: &[usize]) -> Self {
-        numbers.iter().fold(Self::NONE, |all, &number| all.and(needs(number)))
+    /// What the signals of these numbers need, in a case.
+    pub fn of(case: &Case, numbers: &[usize]) -> Self {
+        let tools = watched_tools(&case.vehicle).len();
+        numbers.iter().fold(Self::NONE, |all, &number| all.and(needs(number, tools)))
     }
 }
 
@@ -95,6 +98,8 @@ pub(crate) struct Seen<'a> {
     pub(crate) energy: f64,
     /// Largest torque of a gimbal's motor (N·m).
     pub(crate) motors: f64,
+    /// Errors of the tools that have signals of their own, while an arm guides them.
+    pub(crate) tools: [Option<ToolError>; TOOLS],
 }
 
 /// Where a signal is drawn.
@@ -306,10 +311,12 @@ const JOINT_SIGNALS: [JointSignal; 4] = [
 ];
 
 /// Most signals that a vehicle can have.
-pub(crate) const MOST: usize = SIGNALS.len() + JOINT_SIGNALS.len() * JOINTS;
+pub(crate) const MOST: usize =
+    SIGNALS.len() + TOOL_SIGNALS.len() * TOOLS + JOINT_SIGNALS.len() * JOINTS;
 
-/// All quantities: those of any vehicle, then those of each joint.
-pub fn quantities(joints: &[(String, bool)]) -> Vec<Quantity> {
+/// All quantities: those of any vehicle, then those of each of several tools, then those of each joint and
+/// whether it turns.
+pub fn quantities(tools: &[String], joints: &[(String, bool)]) -> Vec<Quantity> {
     let quantity = |signal: &Signal| Quantity {
         name: signal.name.into(),
         kind: signal.kind,
@@ -323,7 +330,16 @@ pub fn quantities(joints: &[(String, bool)]) -> Vec<Quantity> {
             statistics: signal.statistics,
         })
     };
-    SIGNALS.iter().map(quantity).chain(joints.iter().flat_map(of_joint)).collect()
+    let of_tool = |tool: &String| {
+        let tool = tool.clone();
+        TOOL_SIGNALS.iter().map(move |signal| Quantity {
+            name: format!("tool.{tool}.{}", signal.name),
+            kind: signal.kind,
+            statistics: signal.statistics,
+        })
+    };
+    let of_tools = tools.iter().flat_map(of_tool);
+    SIGNALS.iter().map(quantity).chain(of_tools).chain(joints.iter().flat_map(of_joint)).collect()
 }
 
 /// Values of all signals, in the order of the quantities; NaN behind the last.
@@ -332,16 +348,22 @@ pub(crate) fn values(seen: &Seen<'_>) -> [f64; MOST] {
     let of_any = SIGNALS.iter().map(|signal| (signal.value)(seen));
     let joints = seen.case.vehicle.robot.joints();
     let of_joints = joints.flat_map(|j| JOINT_SIGNALS.iter().map(move |s| (s.value)(seen, j)));
-    all.iter_mut().zip(of_any.chain(of_joints)).for_each(|(to, value)| *to = value);
+    let tools = watched_tools(&seen.case.vehicle).len();
+    let of_tools = seen.tools.iter().take(tools).flat_map(|error| {
+        TOOL_SIGNALS.iter().map(move |s| error.map_or(f64::NAN, |error| (s.value)(&error)))
+    });
+    let values = of_any.chain(of_tools).chain(of_joints);
+    all.iter_mut().zip(values).for_each(|(to, value)| *to = value);
     all
 }
 
-/// What the signal of a number needs.
-fn needs(number: usize) -> Needs {
-    match number.checked_sub(SIGNALS.len()) {
-        None => SIGNALS[number].needs,
-        Some(of_joints) => JOINT_SIGNALS[of_joints % JOINT_SIGNALS.len()].needs,
+/// What the signal of a number needs, where so many tools have signals of their own.
+fn needs(number: usize, tools: usize) -> Needs {
+    if number < SIGNALS.len() {
+        return SIGNALS[number].needs;
     }
+    let of_joints = (number - SIGNALS.len()).checked_sub(TOOL_SIGNALS.len() * tools);
+    of_joints.map_or(Needs::NONE, |i| JOINT_SIGNALS[i % JOINT_SIGNALS.len()].needs)
 }
 
 fn is_fitted(case: &Case) -> bool {
@@ -422,10 +444,11 @@ mod tests {
 
     #[test]
     fn no_two_signals_share_a_name() {
-        let names: Vec<String> = quantities(&[("a".into(), true), ("b".into(), false)])
-            .into_iter()
-            .map(|q| q.name)
-            .collect();
+        let names: Vec<String> =
+            quantities(&["t".into()], &[("a".into(), true), ("b".into(), false)])
+                .into_iter()
+                .map(|q| q.name)
+                .collect();
         for (i, name) in names.iter().enumerate() {
             assert!(!names[..i].contains(name), "{name}");
         }
@@ -437,7 +460,7 @@ mod tests {
         let guide =
             Path::new(env!("CARGO_MANIFEST_DIR")).join("../../book/src/guide/mission_files.md");
         let guide = std::fs::read_to_string(guide).expect("the guide");
-        for quantity in quantities(&[("NAME".into(), true)]) {
+        for quantity in quantities(&["NAME".into()], &[("NAME".into(), true)]) {
             let word = format!("`{}`", quantity.name);
             let row = guide.lines().find(|line| line.starts_with("| `") && line.contains(&word));
             let row = row.unwrap_or_else(|| panic!("the guide has no row for {word}"));

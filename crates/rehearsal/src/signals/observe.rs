@@ -4,6 +4,7 @@ use crate::case::{AttitudeActuation, Case};
 use crate::case_world::CaseWorld;
 use crate::signals::actuator_demand::{ActuatorDemand, gimbal_motors};
 use crate::signals::arm_shape::{reach_margin, smallest_singular_value};
+use crate::signals::tool_signals::{TOOLS, ToolError, watched_tools};
 use crate::signals::{MOST, Needs, Seen, values};
 use crate::simulation::Simulation;
 use crate::true_plant::TruePlant;
@@ -28,7 +29,7 @@ pub(crate) struct Observation {
     /// Momentum that the actuator stores (N·m·s, base axes).
     pub(crate) stored_B: Vec3<f64>,
     /// Tool less reference: position (m) and rotation vector (rad), in the reference's axes.
-    pub(crate) tool_error: (Vec3<f64>, Vec3<f64>),
+    pub(crate) tool_error: ToolError,
     /// Tool in inertial axes.
     pub(crate) X_NE: Pose<f64>,
     pub(crate) V_NE: SpatialVelocity<f64>,
@@ -69,7 +70,7 @@ impl Track {
         let before = self.attitude.replace(*quat_NB).unwrap_or(*quat_NB);
         self.turns_N += (*quat_NB * before.conjugate()).log();
         let at = command.reference.X_NE.translation;
-        if self.phase != Some(command.phase) {
+        if command.begins || self.phase != Some(command.phase) {
             if moves_tool || self.phase.is_none() {
                 self.start = if self.phase.is_none() { at } else { self.last };
                 self.direction = None;
@@ -118,12 +119,6 @@ pub(crate) fn observe(
     let k = kinematics(world.robot(), &state);
     let tool = *computer.tool();
     let X_NE = k.pose(&tool);
-    let seen = match command.axes {
-        Axes::Inertial => X_NE,
-        Axes::Base => state.X_NB.inverse() * X_NE,
-    };
-    let wanted = command.reference.X_NE;
-    let rotation = Quat::from_matrix(&(seen.rotation * wanted.rotation.transpose())).log();
     let start = &case.start.X_NB;
     let turned = start.rotation.transpose() * state.X_NB.rotation;
     let nan = f64::NAN;
@@ -147,7 +142,7 @@ pub(crate) fn observe(
             AttitudeActuation::Ideal(_) => world.stored_momentum_B(),
         },
         readings,
-        tool_error: (seen.translation - wanted.translation, rotation),
+        tool_error: tool_error(&k, &X_NE, (command.reference.X_NE, command.axes)),
         X_NE,
         V_NE: k.velocity(&tool),
         base_turn: track.counted_turn(&turned, &start.rotation),
@@ -167,8 +162,41 @@ pub(crate) fn observe(
         shape: if needs.shape { shape(computer, &k) } else { (nan, nan) },
         energy: if needs.energy { there(kinetic_energy(&k)) } else { nan },
         motors: if needs.motors { motor_torque(case, world) } else { nan },
+        tools: tool_errors(case, computer, &k),
     });
     Observation { values, ..seen }
+}
+
+/// A tool at `X_NE` less where it should be, in the axes of that.
+pub(crate) fn tool_error(
+    k: &Kinematics<'_, f64, JOINTS>,
+    X_NE: &Pose<f64>,
+    (wanted, axes): (Pose<f64>, Axes),
+) -> ToolError {
+    let seen = match axes {
+        Axes::Inertial => *X_NE,
+        Axes::Base => k.X_NB(BodyId::Base).inverse() * *X_NE,
+    };
+    let rotation = Quat::from_matrix(&(seen.rotation * wanted.rotation.transpose())).log();
+    (seen.translation - wanted.translation, rotation)
+}
+
+/// Errors of the tools that have signals of their own, while an arm guides them.
+fn tool_errors(
+    case: &Case,
+    computer: &FlightComputer<f64, JOINTS>,
+    k: &Kinematics<'_, f64, JOINTS>,
+) -> [Option<ToolError>; TOOLS] {
+    let mut errors = [None; TOOLS];
+    for (error, name) in errors.iter_mut().zip(watched_tools(&case.vehicle)) {
+        let tool = case.vehicle.frame(name);
+        let arm = computer.arms().find(|arm| Some(arm.tool) == tool);
+        let at = arm.and_then(|arm| Some((arm.tool, arm.reference?)));
+        *error = at
+            .filter(|_| !computer.coasts())
+            .map(|(tool, reference)| tool_error(k, &k.pose(&tool), reference));
+    }
+    errors
 }
 
 /// How much farther the tool could reach (m), and how far the arm is from a singular posture (–).

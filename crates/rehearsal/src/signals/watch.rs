@@ -30,7 +30,7 @@ impl Watch {
 
     /// The quantities of these numbers alone.
     pub fn of(case: &Case, numbers: Vec<usize>) -> Self {
-        let watch = Self::new(case, Needs::of(&numbers));
+        let watch = Self::new(case, Needs::of(case, &numbers));
         Self { only: Some(numbers), ..watch }
     }
 

@@ -1,12 +1,11 @@
 //! `grasp` and `release`.
 
 use crate::reading::Reading;
-use crate::toml::MissionFile;
 use crate::toml::phase::hold::KeepFile;
 use crate::toml::pose::grasp_bounds;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use wrasse_document::Step;
+use wrasse_document::{Step, at};
 use wrasse_vehicle::GraspBounds;
 use wrasse_world::GripOffset;
 
@@ -40,13 +39,13 @@ pub(crate) struct ReleaseFile {
 /// What a grasp allows: places by the tool that is guided, speeds by the phase.
 pub(super) fn bounds(
     r: &mut Reading<'_>,
-    i: usize,
+    above: &[Step<'_>],
     grasp: &GraspFile,
-    mission: &MissionFile,
+    tool: Option<&str>,
 ) -> GripOffset {
-    let path = |key| [Step::Key("phase"), Step::Index(i), Step::Key("grasp"), Step::Key(key)];
+    let path = |key| [above, at!["grasp", key]].concat();
     let turn = r.not_negative(&path("largest_turn_speed_deg_s"), grasp.largest_turn_speed_deg_s);
     let linear_speed = r.not_negative(&path("largest_speed_m_s"), grasp.largest_speed_m_s);
-    let GraspBounds { distance, angle } = grasp_bounds(r.vehicle, mission.control.tool.as_deref());
+    let GraspBounds { distance, angle } = grasp_bounds(r.vehicle, tool);
     GripOffset { distance, angle, angular_speed: turn.to_radians(), linear_speed }
 }

@@ -27,8 +27,8 @@ pub(crate) enum KeepFile {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct HoldFile {
-    /// For how long.
-    pub(crate) duration_s: f64,
+    /// For how long; it may be left out where `until` ends the phase.
+    pub(crate) duration_s: Option<f64>,
     /// What stays.
     #[serde(default)]
     pub(crate) keep: KeepFile,
@@ -69,16 +69,16 @@ fn tenth() -> f64 {
 
 pub(super) fn unload_by_posture(
     r: &mut Reading<'_>,
-    i: usize,
+    above: &[Step<'_>],
     file: &UnloadByPostureFile,
     mission: &MissionFile,
 ) -> Phase<f64, JOINTS> {
-    let path =
-        |key| [Step::Key("phase"), Step::Index(i), Step::Key("unload_by_posture"), Step::Key(key)];
+    let here = [above, at!["unload_by_posture"]].concat();
+    let path = |key| [&here[..], at![key]].concat();
     if !mission.control.measure_tool_wrench {
         let message = "nothing is known of what pushes at the tool".into();
         let help = "set control.measure_tool_wrench = true: a force-torque sensor at the tool";
-        r.error(at!["phase", i, "unload_by_posture"], message, help);
+        r.error(&here, message, help);
     }
     Phase::UnloadByPosture {
         task: match file.keep {

@@ -1,25 +1,31 @@
-//! `[[phase]]`: what happens, one after the other.
+//! `[[phase]]`: what happens, until when, and what comes next.
 
 mod grip;
 mod hold;
 mod move_joints;
 mod move_tool;
+mod task;
+mod until;
 
 use crate::reading::Reading;
 use crate::toml::MissionFile;
-use crate::toml::control::RATES;
-use grip::{GraspFile, ReleaseFile, bounds};
-use hold::{HoldFile, UnloadByPostureFile, held, unload_by_posture};
-use move_joints::{MoveJointsFile, move_joints};
-use move_tool::{MoveToolFile, move_tool};
+use crate::toml::control::{ArmLawFile, RATES, TaskFile};
+use grip::{GraspFile, ReleaseFile};
+use hold::{HoldFile, UnloadByPostureFile};
+use move_joints::MoveJointsFile;
+use move_tool::MoveToolFile;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use wrasse_document::{Step, at};
-use wrasse_flight::{Grip, LONGEST, PHASES, Phase};
-use wrasse_rehearsal::{PayloadCase, PhaseCase};
+use task::{ArmFile, TaskContext, TaskTable, arm_task};
+use until::{UntilFile, check_cycles, next, until};
+use wrasse_document::{Step as Key, at};
+use wrasse_dynamics::BodyId;
+use wrasse_flight::{ARMS, ArmTask, LONGEST, Next, Phase, STEPS, Step};
+use wrasse_rehearsal::{PayloadCase, StepCase};
 use wrasse_vehicle::JOINTS;
+use wrasse_world::GripOffset;
 
-/// One phase: a name and exactly one thing to do.
+/// One phase: a name, and exactly one thing to do for each arm at work.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PhaseFile {
@@ -39,27 +45,56 @@ pub(crate) struct PhaseFile {
     pub(crate) grasp: Option<GraspFile>,
     /// The tool lets go of a payload.
     pub(crate) release: Option<ReleaseFile>,
+    /// Several arms at once, each with its tool and its motion, in place of one motion.
+    #[serde(default)]
+    pub(crate) arm: Vec<ArmFile>,
+    /// The tool that is guided; that of `[control]` if it is left out.
+    pub(crate) tool: Option<String>,
+    /// Which part of the tool's motion counts; that of `[control]` if it is left out.
+    pub(crate) task: Option<TaskFile>,
+    /// What the arm law takes the base for; that of `[control]` if it is left out.
+    pub(crate) arm_law: Option<ArmLawFile>,
+    /// What ends the phase; the end of its motions if it is left out.
+    pub(crate) until: Option<UntilFile>,
+    /// The longest that it may take; then it is a fault.
+    pub(crate) timeout_s: Option<f64>,
+    /// The phase that comes next, or `end`; the next of the file if it is left out.
+    pub(crate) then: Option<String>,
+    /// The phase that comes after a fault (a timeout, a refused grasp, a motion that cannot begin), or
+    /// `end`. Without it a timeout leads to the same as the end, and the others end the mission.
+    pub(crate) on_fault: Option<String>,
+    /// How often the phase may begin.
+    pub(crate) attempts: Option<u32>,
+    /// The phase that comes in place of it once its attempts are used up, or `end`; the mission stops
+    /// there if it is left out.
+    pub(crate) on_exhausted: Option<String>,
 }
 
-/// What happens, one after the other.
+/// What happens, until when, and what comes next.
 pub(crate) fn phases(
     r: &mut Reading<'_>,
     file: &MissionFile,
     payloads: &[PayloadCase],
-) -> Vec<PhaseCase> {
+) -> Vec<StepCase> {
     check_phase_list(r, &file.phase);
-    let names: Vec<String> = payloads.iter().map(|p| p.name.clone()).collect();
+    let payloads: Vec<String> = payloads.iter().map(|p| p.name.clone()).collect();
+    let names: Vec<String> = file.phase.iter().map(|p| p.name.clone()).collect();
     let phases = file.phase.iter().enumerate();
-    phases.filter_map(|(i, p)| phase(r, i, p, &names, file)).collect()
+    let read: Vec<StepCase> =
+        phases.filter_map(|(i, p)| phase(r, i, p, (&payloads, &names), file)).collect();
+    if read.len() == names.len() {
+        check_cycles(r, &read);
+    }
+    read
 }
 
 fn check_phase_list(r: &mut Reading<'_>, phases: &[PhaseFile]) {
     if phases.is_empty() {
         r.error(at!["phase"], "a mission without phases".into(), "add a [[phase]]");
     }
-    if phases.len() > PHASES {
-        let message = format!("{} phases, at most {PHASES} fit", phases.len());
-        r.error(at!["phase", PHASES], message, "split the mission in two");
+    if phases.len() > STEPS {
+        let message = format!("{} phases, at most {STEPS} fit", phases.len());
+        r.error(at!["phase", STEPS], message, "split the mission in two");
     }
     for (i, phase) in phases.iter().enumerate() {
         if phases[..i].iter().any(|p| p.name == phase.name) {
@@ -69,59 +104,151 @@ fn check_phase_list(r: &mut Reading<'_>, phases: &[PhaseFile]) {
     }
 }
 
-/// The phase of this number; errors if it does not say exactly one thing.
-pub(crate) fn phase(
+/// The phase of this number; errors if it does not say exactly one thing for each arm.
+fn phase(
+    r: &mut Reading<'_>,
+    i: usize,
+    file: &PhaseFile,
+    (payloads, names): (&[String], &[String]),
+    mission: &MissionFile,
+) -> Option<StepCase> {
+    let (tasks, grasp_bounds) = tasks(r, i, file, payloads, mission)?;
+    let mut next =
+        |key: &str, name: &Option<String>| next(r, at!["phase", i, key], name.as_ref(), names);
+    let then = next("then", &file.then).unwrap_or(Next::InOrder);
+    let on_fault = next("on_fault", &file.on_fault);
+    let on_exhausted = next("on_exhausted", &file.on_exhausted);
+    let timeout =
+        file.timeout_s.map(|time| duration(r, at!["phase", i, "timeout_s"], time, mission));
+    if file.attempts == Some(0) {
+        let message = "attempts must be above zero, found 0".into();
+        r.error(at!["phase", i, "attempts"], message, "a phase that never begins can be left out");
+    }
+    if file.on_exhausted.is_some() && file.attempts.is_none() {
+        let message = "attempts are never used up: there is no limit to them".into();
+        r.error(at!["phase", i, "on_exhausted"], message, "add attempts");
+    }
+    let until = until(r, i, file, mission);
+    let (attempts, name) = (file.attempts, file.name.clone());
+    let step = Step { tasks, until, timeout, then, on_fault, attempts, on_exhausted };
+    Some(StepCase { name, step, grasp_bounds })
+}
+
+/// Tasks of the arms at work.
+type Tasks = [Option<ArmTask<f64, JOINTS>>; ARMS];
+
+/// What each arm does, and what a grasp allows.
+fn tasks(
     r: &mut Reading<'_>,
     i: usize,
     file: &PhaseFile,
     payloads: &[String],
     mission: &MissionFile,
-) -> Option<PhaseCase> {
-    let mut grasp_bounds = None;
-    let things = [
-        (file.move_tool.is_some(), "move_tool"),
-        (file.move_joints.is_some(), "move_joints"),
-        (file.hold.is_some(), "hold"),
-        (file.unload_by_posture.is_some(), "unload_by_posture"),
-        (file.grasp.is_some(), "grasp"),
-        (file.release.is_some(), "release"),
-    ];
-    let said: Vec<&str> = things.iter().filter(|t| t.0).map(|t| t.1).collect();
-    if said.len() != 1 {
-        let found = if said.is_empty() { "none".into() } else { said.join(" and ") };
-        let message =
-            format!("phase {:?} must say exactly one thing to do, found {found}", file.name);
-        let help = "one of move_tool, move_joints, hold, unload_by_posture, grasp, release; write a \
-                    phase for each";
-        r.error(at!["phase", i], message, help);
+) -> Option<(Tasks, Option<GripOffset>)> {
+    let (name, has_until) = (format!("phase {:?}", file.name), file.until.is_some());
+    let above = [Key::Key("phase"), i.into()];
+    let context = TaskContext { above: &above, name: &name, payloads, mission, has_until };
+    let of_phase = of_phase(file);
+    if file.arm.is_empty() {
+        let (task, bounds) = arm_task(r, &of_phase, &context)?;
+        return Some(([Some(task), None, None], bounds));
+    }
+    check_arms(r, i, file, &of_phase);
+    let (mut tasks, mut grasp_bounds, mut are_whole) = ([None; ARMS], None, true);
+    for ((k, arm), place) in file.arm.iter().enumerate().zip(&mut tasks) {
+        let above = [Key::Key("phase"), i.into(), Key::Key("arm"), k.into()];
+        let table = TaskTable::of_arm(arm, file.arm_law);
+        let read = arm_task(r, &table, &TaskContext { above: &above, ..context });
+        are_whole &= read.is_some();
+        *place = read.map(|(task, _)| task);
+        grasp_bounds = grasp_bounds.or(read.and_then(|(_, bounds)| bounds));
+    }
+    if !are_whole {
         return None;
     }
-    let phase = if let Some(m) = &file.move_tool {
-        move_tool(r, i, m, mission)?
-    } else if let Some(m) = &file.move_joints {
-        move_joints(r, i, m, mission)?
-    } else if let Some(hold) = &file.hold {
-        let path = at!["phase", i, "hold", "duration_s"];
-        let duration = duration(r, path, hold.duration_s, mission);
-        Phase::Hold { what: held(hold.keep), duration }
-    } else if let Some(given) = &file.unload_by_posture {
-        unload_by_posture(r, i, given, mission)
-    } else if let Some(grasp) = &file.grasp {
-        grasp_bounds = Some(bounds(r, i, grasp, mission));
-        let path = at!["phase", i, "grasp", "payload"];
-        let told = Grip::Grasp(r.find(path, "payload", &grasp.payload, payloads)?);
-        Phase::Grip { action: told, keep: held(grasp.keep) }
-    } else {
-        let release = file.release.as_ref()?;
-        let path = at!["phase", i, "release", "payload"];
-        let told = Grip::Release(r.find(path, "payload", &release.payload, payloads)?);
-        Phase::Grip { action: told, keep: held(release.keep) }
-    };
-    Some(PhaseCase { name: file.name.clone(), phase, grasp_bounds })
+    check_joints(r, i, &tasks);
+    Some((tasks, grasp_bounds))
+}
+
+/// The motion that a phase has itself.
+fn of_phase(file: &PhaseFile) -> TaskTable<'_> {
+    TaskTable {
+        tool: file.tool.as_deref(),
+        task: file.task,
+        arm_law: file.arm_law,
+        move_tool: file.move_tool.as_ref(),
+        move_joints: file.move_joints.as_ref(),
+        hold: file.hold.as_ref(),
+        unload_by_posture: file.unload_by_posture.as_ref(),
+        grasp: file.grasp.as_ref(),
+        release: file.release.as_ref(),
+    }
+}
+
+/// What is wrong with a list of arms.
+fn check_arms(r: &mut Reading<'_>, i: usize, file: &PhaseFile, own: &TaskTable<'_>) {
+    if !own.said().is_empty() || file.tool.is_some() || file.task.is_some() {
+        let message = format!("phase {:?} has a motion or a tool beside its arms", file.name);
+        r.error(at!["phase", i], message, "write it in one of [[phase.arm]]");
+    }
+    if file.arm.len() > ARMS {
+        let message = format!("{} arms at once, at most {ARMS} can work", file.arm.len());
+        r.error(at!["phase", i, "arm", ARMS], message, "let one of them wait for another phase");
+    }
+    let mut grips = 0;
+    for (k, arm) in file.arm.iter().enumerate() {
+        if file.arm[..k].iter().any(|other| other.tool == arm.tool) {
+            let message = format!("{} has two tasks at once", arm.tool);
+            r.error(at!["phase", i, "arm", k, "tool"], message, "one task for each tool");
+        }
+        grips += usize::from(arm.grasp.is_some() || arm.release.is_some());
+        if grips > 1 {
+            let message = "a second grip in one phase".into();
+            r.error(at!["phase", i, "arm", k], message, "one at a time: write a phase for each");
+            return;
+        }
+        let keeps = [
+            arm.hold.as_ref().map(|hold| hold.keep),
+            arm.grasp.as_ref().map(|grasp| grasp.keep),
+            arm.release.as_ref().map(|release| release.keep),
+        ];
+        if keeps.contains(&Some(hold::KeepFile::Nothing)) {
+            let message = "one arm cannot coast while others are driven".into();
+            r.error(at!["phase", i, "arm", k], message, "keep its joints or its tool");
+        }
+    }
+}
+
+/// Joints that an arm beside others is sent to, and that do not carry its tool.
+fn check_joints(r: &mut Reading<'_>, i: usize, tasks: &Tasks) {
+    for (k, task) in tasks.iter().enumerate() {
+        let Some(ArmTask { motion: Phase::MoveJoints { to, .. }, assignment: Some(own) }) = task
+        else {
+            continue;
+        };
+        let wrasse_flight::JointTarget::Positions(to) = to else { continue };
+        let carries = carriers(r, own.tool.body);
+        for j in r.vehicle.robot.joints().filter(|&j| to[j].is_some() && !carries[j]) {
+            let name = r.vehicle.joint_names[j].clone();
+            let message = format!("joint {name} does not carry the tool of this arm");
+            let path = at!["phase", i, "arm", k, "move_joints"];
+            r.error(path, message, "give positions of this arm's joints alone, by to_deg or to_m");
+        }
+    }
+}
+
+/// Joints between the base and a body.
+fn carriers(r: &Reading<'_>, body: BodyId) -> [bool; JOINTS] {
+    let (mut carries, mut at) = ([false; JOINTS], body);
+    while let BodyId::Link(j) = at {
+        carries[j] = true;
+        at = r.vehicle.robot.joint(j).parent;
+    }
+    carries
 }
 
 /// A duration (s) that can be planned.
-fn duration(r: &mut Reading<'_>, path: &[Step<'_>], given: f64, mission: &MissionFile) -> f64 {
+fn duration(r: &mut Reading<'_>, path: &[Key<'_>], given: f64, mission: &MissionFile) -> f64 {
     // A rate that cannot be is complained of where it stands.
     let (given, rate) = (r.positive(path, given), mission.control.rate_hz.min(RATES.1));
     if given * rate > f64::from(LONGEST) {
@@ -136,7 +263,7 @@ fn duration(r: &mut Reading<'_>, path: &[Step<'_>], given: f64, mission: &Missio
 
 fn no_timing(
     r: &mut Reading<'_>,
-    path: &[Step<'_>],
+    path: &[Key<'_>],
     duration: Option<f64>,
 ) -> Option<Phase<f64, JOINTS>> {
     let found = if duration.is_some() { "both" } else { "neither" };

@@ -77,14 +77,16 @@ fn one() -> f64 {
 
 pub(super) fn move_joints(
     r: &mut Reading<'_>,
-    i: usize,
+    above: &[Step<'_>],
     m: &MoveJointsFile,
     mission: &MissionFile,
+    law: ArmLawFile,
 ) -> Option<Phase<f64, JOINTS>> {
-    let path = |key| [Step::Key("phase"), Step::Index(i), Step::Key("move_joints"), Step::Key(key)];
+    let here = [above, at!["move_joints"]].concat();
+    let path = |key| [&here[..], at![key]].concat();
     let by_name = m.to_posture.is_some() || !m.to_deg.is_empty() || !m.to_m.is_empty();
     let to = match (&m.to_tool, by_name) {
-        (Some(pose), false) => tool_target(r, i, pose, mission),
+        (Some(pose), false) => tool_target(r, &path("to_tool"), pose, law),
         (None, true) => {
             let mut to = [None; JOINTS];
             if let Some(name) = &m.to_posture {
@@ -92,13 +94,13 @@ pub(super) fn move_joints(
             }
             by_joint(r, &path("to_deg"), &m.to_deg, JointKind::Revolute, |j, x| to[j] = Some(x));
             by_joint(r, &path("to_m"), &m.to_m, JointKind::Prismatic, |j, x| to[j] = Some(x));
-            check_travel(r, i, &to);
+            check_travel(r, &here, &to);
             JointTarget::Positions(to)
         }
         _ => {
             let message = "joints are moved to positions or to a pose of the tool".into();
             let help = "give to_posture, to_deg or to_m; or to_tool = { … }";
-            r.error(at!["phase", i, "move_joints"], message, help);
+            r.error(&here, message, help);
             return None;
         }
     };
@@ -106,32 +108,30 @@ pub(super) fn move_joints(
         (Some(given), None) => {
             JointTiming::Duration(duration(r, &path("duration_s"), given, mission))
         }
-        (None, Some(limits)) => joint_limits(r, i, limits),
-        (given, _) => return no_timing(r, at!["phase", i, "move_joints"], given),
+        (None, Some(limits)) => joint_limits(r, &path("limits"), limits),
+        (given, _) => return no_timing(r, &here, given),
     };
     Some(Phase::MoveJoints { to, timing })
 }
 
 fn tool_target(
     r: &mut Reading<'_>,
-    i: usize,
+    path: &[Step<'_>],
     pose: &ToolPoseFile,
-    mission: &MissionFile,
+    law: ArmLawFile,
 ) -> JointTarget<f64, JOINTS> {
-    let path = at!["phase", i, "move_joints", "to_tool"];
-    if mission.control.arm_law == ArmLawFile::FreeFloating && pose.axes == AxesFile::Inertial {
+    if law == ArmLawFile::FreeFloating && pose.axes == AxesFile::Inertial {
         let message =
             "where a floating base ends depends on the way: no joint positions belong to an \
                        inertial pose"
                 .into();
         r.error(path, message, "use move_tool, or axes = \"base\", or another arm_law");
     }
-    let quat =
-        attitude(r, at!["phase", i, "move_joints", "to_tool", "attitude"], Some(pose.attitude));
+    let quat = attitude(r, &[path, at!["attitude"]].concat(), Some(pose.attitude));
     JointTarget::Tool(Pose::from_quat(quat, vector(pose.position_m)), axes(pose.axes))
 }
 
-fn check_travel(r: &mut Reading<'_>, i: usize, to: &[Option<f64>; JOINTS]) {
+fn check_travel(r: &mut Reading<'_>, above: &[Step<'_>], to: &[Option<f64>; JOINTS]) {
     for j in r.vehicle.robot.joints() {
         let (Some(q), Some((lower, upper))) = (to[j], r.vehicle.limits[j].travel) else { continue };
         if !(lower..=upper).contains(&q) {
@@ -139,7 +139,6 @@ fn check_travel(r: &mut Reading<'_>, i: usize, to: &[Option<f64>; JOINTS]) {
             let [q, lower, upper] = [q, lower, upper].map(|x| r.shown(j, x));
             let message =
                 format!("joint {name} shall go to {q}, outside its travel from {lower} to {upper}");
-            let above = at!["phase", i, "move_joints"];
             let place = place_of_position(r, above, ["to_deg", "to_m", "to_posture"], name);
             let help = "choose a position within the travel";
             r.error(&place, message, help);
@@ -147,9 +146,12 @@ fn check_travel(r: &mut Reading<'_>, i: usize, to: &[Option<f64>; JOINTS]) {
     }
 }
 
-fn joint_limits(r: &mut Reading<'_>, i: usize, file: &JointLimitsFile) -> JointTiming<f64, JOINTS> {
-    let mut number =
-        |key: &str, x: f64| r.positive(at!["phase", i, "move_joints", "limits", key], x);
+fn joint_limits(
+    r: &mut Reading<'_>,
+    above: &[Step<'_>],
+    file: &JointLimitsFile,
+) -> JointTiming<f64, JOINTS> {
+    let mut number = |key: &str, x: f64| r.positive(&[above, at![key]].concat(), x);
     let share = number("rate_share", file.rate_share);
     let turning = (
         number("acceleration_deg_s2", file.acceleration_deg_s2).to_radians(),
@@ -166,7 +168,7 @@ fn joint_limits(r: &mut Reading<'_>, i: usize, file: &JointLimitsFile) -> JointT
         let Some(rate) = r.vehicle.limits[j].rate else {
             let name = r.vehicle.joint_names[j].clone();
             let message = format!("joint {name} has no rate limit in the vehicle file");
-            r.error(at!["phase", i, "move_joints", "limits"], message, "give duration_s instead");
+            r.error(above, message, "give duration_s instead");
             continue;
         };
         limits[j] = MotionLimits { speed: rate * share, acceleration, jerk };

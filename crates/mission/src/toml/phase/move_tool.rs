@@ -65,11 +65,12 @@ pub(crate) struct ToolLimitsFile {
 
 pub(super) fn move_tool(
     r: &mut Reading<'_>,
-    i: usize,
+    above: &[Step<'_>],
     m: &MoveToolFile,
     mission: &MissionFile,
 ) -> Option<Phase<f64, JOINTS>> {
-    let path = |key| [Step::Key("phase"), Step::Index(i), Step::Key("move_tool"), Step::Key(key)];
+    let here = [above, at!["move_tool"]].concat();
+    let path = |key| [&here[..], at![key]].concat();
     let (by, to) =
         (m.by_m.is_some() || m.turn_by_deg.is_some(), m.to_position_m.zip(m.to_attitude));
     let target = match (by, to) {
@@ -87,14 +88,14 @@ pub(super) fn move_tool(
             let message = "a tool is moved either by something or to a pose".into();
             let help =
                 "give by_m and turn_by_deg (or one of them), or to_position_m and to_attitude";
-            r.error(at!["phase", i, "move_tool"], message, help);
+            r.error(&here, message, help);
             return None;
         }
     };
     let timing = match (m.duration_s, &m.limits) {
         (Some(given), None) => Timing::Duration(duration(r, &path("duration_s"), given, mission)),
-        (None, Some(limits)) => tool_limits(r, i, limits),
-        (given, _) => return no_timing(r, at!["phase", i, "move_tool"], given),
+        (None, Some(limits)) => tool_limits(r, &path("limits"), limits),
+        (given, _) => return no_timing(r, &here, given),
     };
     Some(Phase::MoveTool { target, axes: axes(m.axes), timing })
 }
@@ -120,8 +121,8 @@ pub(super) fn shape(file: ShapeFile) -> ProfileShape {
     }
 }
 
-fn tool_limits(r: &mut Reading<'_>, i: usize, file: &ToolLimitsFile) -> Timing<f64> {
-    let mut number = |key: &str, x: f64| r.positive(at!["phase", i, "move_tool", "limits", key], x);
+fn tool_limits(r: &mut Reading<'_>, above: &[Step<'_>], file: &ToolLimitsFile) -> Timing<f64> {
+    let mut number = |key: &str, x: f64| r.positive(&[above, at![key]].concat(), x);
     let linear = MotionLimits {
         speed: number("speed_m_s", file.speed_m_s),
         acceleration: number("acceleration_m_s2", file.acceleration_m_s2),

@@ -1,126 +1,135 @@
-//! References of the arm: phases one after the other, and the path of the current one. It decides, so
-//! it takes single numbers.
+//! References of one arm: the path of its task. It decides, so it takes single numbers.
 
 use crate::allocation::{NoPostureUnloading, PostureUnloadingUse, ToolTask, unload_by_posture};
 use crate::carried_rates::{CarriedRates, FADE, to_rest};
+use crate::clock::{Clock, NoWay};
 use crate::control_period::{ArmReference, PeriodMemory, at_rest};
 use crate::interface::{Axes, Grip};
 use crate::phase::{Held, JointTarget, Path, Phase};
-use crate::resolved_motion::Belief;
-use crate::sequence::{BadPhase, NoWay, Sequence};
+use crate::resolved_motion::{Assignment, Belief};
 use crate::setup::Setup;
 use crate::tool_pose::joints_for_tool;
 use crate::trajectory::ToolMotion;
-use wrasse_dynamics::{Robot, State, kinematics};
+use wrasse_dynamics::{Frame, Robot, State, kinematics};
 use wrasse_spatial::{Pose, Quat, Scalar, SpatialForce};
 
 /// Time in which joints take up the rates that unload the base (s).
 const UNLOADING_APPROACH: f64 = 0.5;
 
-/// Phases and path.
+/// What one arm does, and how far it has come with it.
 #[derive(Debug, Clone, Copy)]
-pub struct Guidance<T, const J: usize> {
-    pub(crate) sequence: Sequence<T, J>,
+pub(crate) struct ArmGuidance<T, const J: usize> {
     pub(crate) path: Path<T, J>,
-    /// What the joints' motion at the start of the phase adds to the path.
+    clock: Clock,
+    /// What the joints' motion at the start of the task adds to the path.
     carried: Option<CarriedRates<T, J>>,
     /// The tool's motion once the joints have come to rest, where it is to come to rest too.
     drift: Option<ToolMotion<T>>,
-    /// Whether the phase still has to begin, once the joints have come to rest.
+    /// Whether the task still has to begin, once the joints have come to rest.
     waits: bool,
-    /// Why no change of posture unloads the base, if the phase is for that.
+    /// The tool that was guided last.
+    tool: Option<Frame<T>>,
+    /// Why no change of posture unloads the base, if the task is for that.
     pub(crate) no_posture_unloading: Option<NoPostureUnloading<T>>,
 }
 
 /// A robot, how it is controlled, and what its control periods remember.
 #[derive(Debug, Clone, Copy)]
-pub struct GuidanceContext<'a, T, const J: usize> {
+pub(crate) struct GuidanceContext<'a, T, const J: usize> {
     /// The robot with what it holds.
-    pub robot: &'a Robot<T, J>,
+    pub(crate) robot: &'a Robot<T, J>,
     /// How it is controlled.
-    pub setup: &'a Setup<T, J>,
+    pub(crate) setup: &'a Setup<T, J>,
     /// What the control periods remember.
-    pub memory: &'a PeriodMemory<T, J>,
+    pub(crate) memory: &'a PeriodMemory<T, J>,
+    /// Tool, law and task of the arm.
+    pub(crate) assignment: &'a Assignment<T>,
+    /// The joints that the arm moves.
+    pub(crate) joints: &'a [bool; J],
+    /// Where the tool should be now, and the axes of that.
+    pub(crate) reference: (Pose<T>, Axes),
 }
 
-impl<T: Scalar, const J: usize> Guidance<T, J> {
-    /// These phases; those beyond [`PHASES`](crate::PHASES) are left out.
-    pub fn new(phases: &[Phase<T, J>]) -> Self {
-        let path = Path::Still(Held::Joints);
+impl<T: Scalar, const J: usize> ArmGuidance<T, J> {
+    /// Joints that stand.
+    pub(crate) fn new() -> Self {
         Self {
-            sequence: Sequence::new(phases),
-            path,
+            path: Path::Still(Held::Joints),
+            clock: Clock::default(),
             carried: None,
             drift: None,
             waits: false,
+            tool: None,
             no_posture_unloading: None,
         }
     }
 
-    /// Number of the current phase: that of the phases when all are done.
-    pub fn phase(&self) -> usize {
-        self.sequence.number()
-    }
-
-    /// Whether the current phase moves the tool along a line, or keeps it in its place.
-    pub fn follows_tool(&self) -> bool {
+    /// Whether the task moves the tool along a line, or keeps it in its place.
+    pub(crate) fn follows_tool(&self) -> bool {
         matches!(self.path, Path::Line(..) | Path::Still(Held::Tool))
     }
 
-    /// Whether all phases are done.
-    pub fn is_done(&self) -> bool {
-        self.sequence.is_done() && !self.waits
+    /// Whether the task is done.
+    pub(crate) fn is_over(&self) -> bool {
+        self.clock.is_over() && !self.waits
     }
 
-    /// Before each period, once the memory has looked: begins the next phase if the last is over. What
-    /// it tells the grip.
-    ///
-    /// # Errors
-    /// If a phase begins whose numbers describe no motion.
-    pub fn begin(
-        &mut self,
-        context: &GuidanceContext<'_, T, J>,
-    ) -> Result<Option<Grip>, BadPhase<T>> {
-        if !self.sequence.is_over() {
-            return Ok(None);
+    /// Whether the joints have come to rest, and the task that waited for that has to begin.
+    pub(crate) fn may_begin(&self) -> bool {
+        self.clock.is_over() && self.waits
+    }
+
+    /// Where the tool is to be in the end, and the axes of that.
+    pub(crate) fn end(&self, context: &GuidanceContext<'_, T, J>) -> (Pose<T>, Axes) {
+        match self.path {
+            Path::Line(line, axes) => (line.at(line.duration()).X_NE, axes),
+            Path::Joints(way) => {
+                let state = State { q: way.at(way.duration()).q, ..State::default() };
+                (kinematics(context.robot, &state).pose(&context.assignment.tool), Axes::Base)
+            }
+            _ => context.reference,
         }
-        let begun = self.begin_next(context);
-        begun.map_err(|reason| BadPhase { phase: self.phase(), reason })
     }
 
     /// The reference of the coming period. `F_E` is what pushes at the tool, at its origin in its
     /// axes (N·m, N).
-    pub fn next(
+    pub(crate) fn next(
         &mut self,
         context: &GuidanceContext<'_, T, J>,
         F_E: &SpatialForce<T>,
     ) -> ArmReference<T, J> {
-        let t = T::from_f64(f64::from(self.sequence.tick())) * context.setup.tuning.period;
+        let t = T::from_f64(f64::from(self.clock.tick())) * context.setup.tuning.period;
         self.reference_at(context, t, F_E)
     }
 
-    /// Begin the next phase, or the one that waits; what it tells the grip.
-    fn begin_next(
+    /// Stand still from now on.
+    pub(crate) fn stand(&mut self) {
+        (self.path, self.carried, self.waits) = (Path::Still(Held::Joints), None, false);
+        self.clock = Clock::default();
+    }
+
+    /// Begin a task, or the one that waits; what it tells the grip.
+    ///
+    /// # Errors
+    /// If its numbers describe no motion.
+    pub(crate) fn begin(
         &mut self,
         context: &GuidanceContext<'_, T, J>,
+        motion: &Phase<T, J>,
     ) -> Result<Option<Grip>, NoWay<T>> {
         let period = context.setup.tuning.period;
         let waited = core::mem::take(&mut self.waits);
-        let next = if waited { self.sequence.again() } else { self.sequence.next() };
-        let Some(phase) = next else {
-            (self.path, self.carried) = (Path::Still(Held::Joints), None);
-            return Ok(None);
-        };
-        self.carried = self.carried_into(context, &phase).filter(|_| !waited);
+        self.carried = self.carried_into(context, motion).filter(|_| !waited);
         self.drift = None;
-        if let (Phase::MoveTool { .. }, Some(_)) = (phase, self.carried) {
+        self.tool = Some(context.assignment.tool);
+        if let (Phase::MoveTool { .. }, Some(_)) = (motion, self.carried) {
             // A line of the tool begins at rest.
             (self.waits, self.path) = (true, Path::Still(Held::Tool));
-            self.sequence.lasts(T::from_f64(2.0 * FADE), period)?;
+            self.clock.begin(T::from_f64(2.0 * FADE), period)?;
             return Ok(None);
         }
         let mut grip = None;
-        let (path, duration) = match phase {
+        let (path, duration) = match *motion {
             Phase::MoveTool { target, axes, timing } => {
                 let from = context.believed_tool(axes);
                 let line = timing.line(from, &target)?;
@@ -141,7 +150,7 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
             }
         };
         self.path = path;
-        self.sequence.lasts(duration, period)?;
+        self.clock.begin(duration, period)?;
         Ok(grip)
     }
 
@@ -155,13 +164,17 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
         let goes_on = match phase {
             Phase::MoveTool { .. }
             | Phase::Hold { what: Held::Tool, .. }
-            | Phase::Grip { keep: Held::Tool, .. } => self.follows_tool(),
+            | Phase::Grip { keep: Held::Tool, .. } => {
+                self.follows_tool() && self.tool == Some(context.assignment.tool)
+            }
             Phase::UnloadByPosture { .. }
             | Phase::Hold { what: Held::Nothing, .. }
             | Phase::Grip { keep: Held::Nothing, .. } => true,
             _ => false,
         };
-        let (q, v) = (context.memory.belief.q, context.memory.motion.rate.qdot);
+        let (q, rates) = (context.memory.belief.q, context.memory.motion.rate.qdot);
+        let own = |j: usize| if context.joints[j] { rates[j] } else { T::zero() };
+        let v = core::array::from_fn(own);
         if goes_on { None } else { CarriedRates::of(q, v) }
     }
 
@@ -183,12 +196,9 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
                 let reference = self.tool_to_rest(context, t);
                 self.on_tool(context, reference, Axes::Inertial, t)
             }
-            (Path::Still(Held::Tool), None) => self.on_tool(
-                context,
-                at_rest(context.memory.reference.X_NE),
-                context.memory.axes,
-                t,
-            ),
+            (Path::Still(Held::Tool), None) => {
+                self.on_tool(context, at_rest(context.reference.0), context.reference.1, t)
+            }
             (Path::Still(Held::Joints), None) => ArmReference::Still,
             (Path::Joints(path), None) => ArmReference::Joints(path.at(t)),
             (Path::Joints(path), Some(carried)) => {
@@ -208,10 +218,8 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
         let drift = *self.drift.get_or_insert_with(|| {
             let state = context.memory.believed_state();
             let k = kinematics(context.robot, &state);
-            let (X_NE, V_NE_N) = (
-                k.pose(&context.setup.assignment.tool),
-                k.velocity(&context.setup.assignment.tool),
-            );
+            let (X_NE, V_NE_N) =
+                (k.pose(&context.assignment.tool), k.velocity(&context.assignment.tool));
             ToolMotion { V_NE_N, ..at_rest(X_NE) }
         });
         let (rate, way, acceleration) = to_rest((t - fade) / fade);
@@ -234,8 +242,9 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
         t: T,
     ) -> ArmReference<T, J> {
         let (c, gain) = (T::from_f64, context.setup.joints.gain);
-        let duration = self.sequence.duration(context.setup.tuning.period);
-        let s = t / duration;
+        let duration = self.clock.duration(context.setup.tuning.period);
+        // Behind its end there is none.
+        let s = (t / duration).min(T::one());
         let rest = T::one() - s;
         ArmReference::Tool {
             reference,
@@ -260,14 +269,14 @@ impl<T: Scalar, const J: usize> Guidance<T, J> {
         let Belief { X_NB, q, .. } = context.memory.predicted(context.robot, period);
         let state = State { X_NB, q, ..context.memory.believed_state() };
         let approach = T::from_f64(UNLOADING_APPROACH);
-        let left = self.sequence.duration(period) - t;
+        let left = self.clock.duration(period) - t;
         let k = kinematics(context.robot, &state);
-        let R_NE = k.pose(&context.setup.assignment.tool).rotation;
+        let R_NE = k.pose(&context.assignment.tool).rotation;
         let F_N = SpatialForce::new(R_NE * F_E.torque, R_NE * F_E.force);
         let joints =
             PostureUnloadingUse { task, gain, rate_limit: context.setup.joints.rate_limit };
         let mut best = [T::zero(); J];
-        match unload_by_posture(&k, &context.setup.assignment.tool, &F_N, &joints) {
+        match unload_by_posture(&k, &context.assignment.tool, &F_N, &joints) {
             Ok(unloading) if left > approach * T::from_f64(6.0) => best = unloading.qdot,
             Ok(_) => {}
             Err(reason) => self.no_posture_unloading = Some(reason),
@@ -290,7 +299,7 @@ impl<T: Scalar, const J: usize> GuidanceContext<'_, T, J> {
             Axes::Base => Pose::identity(),
         };
         let state = State { X_NB, q: belief.q, ..State::default() };
-        kinematics(self.robot, &state).pose(&self.setup.assignment.tool)
+        kinematics(self.robot, &state).pose(&self.assignment.tool)
     }
 }
 
@@ -303,7 +312,7 @@ fn joint_target<T: Scalar, const J: usize>(
     match to {
         JointTarget::Positions(to) => Ok(core::array::from_fn(|j| to[j].unwrap_or(q[j]))),
         JointTarget::Tool(X, axes) => {
-            let (tool, law) = (&context.setup.assignment.tool, context.setup.assignment.law);
+            let (tool, law) = (&context.assignment.tool, context.assignment.law);
             let state = State { X_NB: context.memory.belief.X_NB, q, ..State::default() };
             joints_for_tool(context.robot, tool, &state, &X, axes, law, &context.setup.limits)
                 .map_err(NoWay::Unreachable)
