@@ -205,7 +205,7 @@ impl Document {
         Some(place)
     }
     /// The item that a path leads to, if all of the way is there.
-    fn exact(&self, path: &[Step<'_>]) -> Option<&Positioned> {
+    pub(crate) fn exact(&self, path: &[Step<'_>]) -> Option<&Positioned> {
         let (Step::Key(first), rest) = path.split_first()? else { return None };
         let first = &self.root.get(*first)?.item;
         rest.iter().try_fold(first, |item, step| match (step, &item.value) {

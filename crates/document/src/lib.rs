@@ -27,6 +27,7 @@ mod canonical;
 mod complaint;
 mod deserialize;
 mod document;
+mod edit;
 mod excerpt;
 mod in_part;
 mod json;

@@ -17,6 +17,6 @@ mod toml;
 pub use fingerprint::sha256;
 pub use mission::{Mission, Study};
 pub use outcome::{Outcome, ProvenanceRow, VehicleCard};
-pub use read_mission::{mission_schema, read_mission};
+pub use read_mission::{mission_of, mission_schema, read_mission};
 pub use run::{Progress, run};
 pub use toml::study::ClaimIs;

@@ -45,8 +45,11 @@ pub fn read_mission(
     mission_of(&Document::parse(path, text)?)
 }
 
-/// The same of a document: apart from what is generic, so that the callers do not compile it again.
-fn mission_of(document: &Document) -> Result<Mission, Vec<Complaint>> {
+/// The mission that a document describes: that of a file, or one that something was laid over.
+///
+/// # Errors
+/// All complaints at once.
+pub fn mission_of(document: &Document) -> Result<Mission, Vec<Complaint>> {
     let part = document.read_in_part::<MissionFile>();
     let Some(file) = part.value else { return Err(part.complaints) };
     let mut complaints = vec![];

@@ -1,127 +1,40 @@
-//! The demand of a task by hand, from the numbers of its file alone: what the simulation finds has to
+//! The demand of a task by hand, from the numbers of its case alone: what the simulation finds has to
 //! come near it.
 
 use crate::outcome::HandCheck;
-use schemars::JsonSchema;
-use serde::Deserialize;
-use std::collections::BTreeMap;
 use wrasse_dynamics::{BodyId, Frame, Kinematics, MassProperties, State, kinematics};
-use wrasse_hardware::Tank;
-use wrasse_spatial::{Pose, Sym3, Vec3};
-use wrasse_vehicle::{JOINTS, Vehicle, VehicleRobot};
+use wrasse_flight::trajectory::ProfileShape;
+use wrasse_flight::{Axes, Phase, Target, Timing};
+use wrasse_rehearsal::{AppliedWrench, Case, PayloadStart};
+use wrasse_spatial::{Mat3, Pose, Sym3, Vec3};
+use wrasse_vehicle::{JOINTS, VehicleRobot};
 
-/// What a mission file says of the load, the motion and the push. The rest is not read.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
-#[serde(default)]
-pub(crate) struct TaskFile {
-    payload: BTreeMap<String, LoadFile>,
-    world: PushFile,
-    phase: Vec<PhaseFile>,
-    initial: InitialFile,
-    control: ControlFile,
-}
-
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
-#[serde(default)]
-struct InitialFile {
-    attitude: Option<TurnFile>,
-}
-
-/// The vector part of a quaternion: zero where nothing is turned.
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
-#[serde(default)]
-struct TurnFile {
-    x: f64,
-    y: f64,
-    z: f64,
-}
-
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
-#[serde(default)]
-struct ControlFile {
-    tool: Option<String>,
-}
-
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
-#[serde(default)]
-struct LoadFile {
-    mass_kg: f64,
-    centre_of_mass_m: [f64; 3],
-    held_by: Option<String>,
-}
-
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
-#[serde(default)]
-struct PushFile {
-    applied_wrench: Vec<WrenchFile>,
-}
-
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
-#[serde(default)]
-struct WrenchFile {
-    on: String,
-    axes: Option<String>,
-    from_s: f64,
-    duration_s: f64,
-    ramp_s: f64,
-    force_n: [f64; 3],
-    torque_nm: [f64; 3],
-}
-
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
-#[serde(default)]
-struct PhaseFile {
-    move_tool: Option<MoveFile>,
-    move_joints: Option<OtherFile>,
-    unload_by_posture: Option<OtherFile>,
-    grasp: Option<OtherFile>,
-    release: Option<OtherFile>,
-}
-
-/// Something that is done, whatever it is in detail.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
-struct OtherFile {}
-
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
-#[serde(default)]
-struct MoveFile {
-    by_m: Option<[f64; 3]>,
-    axes: Option<String>,
-    duration_s: Option<f64>,
-    limits: Option<LimitsFile>,
-}
-
-#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
-#[serde(default)]
-struct LimitsFile {
-    shape: String,
-    speed_m_s: f64,
-    acceleration_m_s2: f64,
-    jerk_m_s3: f64,
-}
-
-/// The vehicle at the start of a task, with what is in its tank and without its load.
+/// The vehicle at the start of a task, with what is in its tank and without its load, in base axes.
 pub(crate) struct Start<'a> {
-    vehicle: &'a Vehicle,
+    case: &'a Case,
     robot: VehicleRobot,
     state: State<f64, JOINTS>,
 }
 
 impl<'a> Start<'a> {
-    pub(crate) fn new(
-        vehicle: &'a Vehicle,
-        tank: Option<Tank<f64>>,
-        state: &State<f64, JOINTS>,
-    ) -> Self {
-        let mut robot = vehicle.robot;
-        if let Some(tank) = tank {
+    pub(crate) fn new(case: &'a Case) -> Self {
+        let mut robot = case.vehicle.robot;
+        if let Some(tank) = case.equipment.actuators.tank {
             let base = Frame { body: BodyId::Base, X_BF: Pose::identity() };
             let matter =
                 MassProperties::from_central(tank.propellant, tank.position_B, Sym3::zero());
             robot = robot.with_payload(&base, &matter);
         }
-        Self { vehicle, robot, state: *state }
+        Self { case, robot, state: State { q: case.start.q, ..State::default() } }
     }
+}
+
+/// A straight line of the tool.
+struct Line<'a> {
+    tool: Frame<f64>,
+    displacement: Vec3<f64>,
+    axes: Axes,
+    timing: &'a Timing<f64>,
 }
 
 /// Peak speed (m/s) and acceleration (m/s²) of a motion, and how they are found.
@@ -131,85 +44,78 @@ struct Pace {
     how: String,
 }
 
-impl TaskFile {
-    /// Whether figures in these axes are turned against those of the base, in which a hand reckons.
-    fn is_turned(&self, axes: Option<&str>) -> bool {
-        let turned = |turn: &TurnFile| [turn.x, turn.y, turn.z].iter().any(|part| *part != 0.0);
-        axes != Some("base") && self.initial.attitude.as_ref().is_some_and(turned)
+/// The first straight line of a tool that works alone, if load and posture are those of the start until
+/// then.
+fn first_line(case: &Case) -> Option<Line<'_>> {
+    for phase in &case.phases {
+        let task = phase.step.tasks().next().filter(|_| phase.step.tasks().count() == 1)?;
+        match &task.motion {
+            Phase::MoveTool { target: Target::By { displacement, .. }, axes, timing } => {
+                let own = task.assignment.unwrap_or(case.setup.assignment);
+                let (displacement, axes) = (*displacement, *axes);
+                let line = Line { tool: own.tool, displacement, axes, timing };
+                return (displacement.norm() > 0.0).then_some(line);
+            }
+            Phase::Hold { .. } => {}
+            _ => return None,
+        }
     }
-    /// The first straight line, if load and posture are those of the start until then.
-    fn first_line(&self) -> Option<&MoveFile> {
-        let at = self.phase.iter().position(|phase| phase.move_tool.is_some())?;
-        let before = self.phase[..at].iter();
-        let same = before.clone().all(|phase| !phase.moves() && !phase.changes_the_load());
-        self.phase[at].move_tool.as_ref().filter(|_| same)
-    }
+    None
 }
 
-impl PhaseFile {
-    fn moves(&self) -> bool {
-        self.move_joints.is_some() || self.unload_by_posture.is_some()
-    }
-    fn changes_the_load(&self) -> bool {
-        self.grasp.is_some() || self.release.is_some()
-    }
+/// Whether a load is taken or let go of on the way.
+fn changes_the_load(case: &Case) -> bool {
+    let mut tasks = case.phases.iter().flat_map(|phase| phase.step.tasks());
+    tasks.any(|task| matches!(task.motion, Phase::Grip { .. }))
 }
 
 impl Start<'_> {
-    fn tool(
-        &self,
-        k: &Kinematics<'_, f64, JOINTS>,
-        name: Option<&str>,
-    ) -> Option<wrasse_spatial::Pose<f64>> {
-        let name = name.or_else(|| self.vehicle.tools.first().map(String::as_str))?;
-        self.vehicle.frame(name).map(|frame| k.pose(&frame))
+    /// Whether figures in these axes are turned against those of the base, in which a hand reckons.
+    fn is_turned(&self, axes: Axes) -> bool {
+        axes == Axes::Inertial && self.case.start.X_NB.rotation != Mat3::identity()
     }
-    /// Mass (kg) and centre of mass (m) of the payloads that tools of some names hold.
+    /// Mass (kg) and centre of mass (m) of the payloads that some tools hold.
     fn load(
         &self,
         k: &Kinematics<'_, f64, JOINTS>,
-        file: &TaskFile,
-        counts: impl Fn(&str) -> bool,
+        counts: impl Fn(&Frame<f64>) -> bool,
     ) -> (f64, Vec3<f64>) {
-        let held = file.payload.values().filter_map(|load| {
-            let name = load.held_by.as_deref().filter(|name| counts(name))?;
-            let tool = self.tool(k, Some(name))?;
-            Some((load.mass_kg, tool.point(Vec3::from_array(load.centre_of_mass_m))))
+        let held = self.case.payloads.iter().filter_map(|payload| match &payload.start {
+            PayloadStart::Held(tool) if counts(tool) => {
+                let M = &payload.matter.M_F_F;
+                Some((M.mass, k.pose(tool).point(M.centre_of_mass())))
+            }
+            _ => None,
         });
         let (mass, moment) =
             held.fold((0.0, Vec3::zero()), |(m, sum), (mass, p)| (m + mass, sum + p * mass));
         (mass, if mass > 0.0 { moment * (1.0 / mass) } else { moment })
     }
     /// Centre of mass of vehicle and load (m).
-    pub(crate) fn centre_of_mass(&self, file: &TaskFile) -> Vec3<f64> {
+    pub(crate) fn centre_of_mass(&self) -> Vec3<f64> {
         let k = kinematics(&self.robot, &self.state);
-        let ((rest, p_rest), (load, p_load)) = (k.centre_of_mass(), self.load(&k, file, |_| true));
+        let ((rest, p_rest), (load, p_load)) = (k.centre_of_mass(), self.load(&k, |_| true));
         (p_rest * rest + p_load * load) * (1.0 / (rest + load))
     }
     /// The demand of the task by hand, if it is one of those that a hand can do: a push at a tool, or
     /// the first straight line. `duration`: how long it is flown (s).
-    pub(crate) fn by_hand(&self, file: &TaskFile, duration: f64) -> Option<HandCheck> {
-        if file.world.applied_wrench.is_empty() {
-            self.of_motion(file)
-        } else {
-            self.of_push(file, duration)
-        }
+    pub(crate) fn by_hand(&self, duration: f64) -> Option<HandCheck> {
+        if self.case.wrenches.is_empty() { self.of_motion() } else { self.of_push(duration) }
     }
     /// Force times lever, and the torque that comes with it; momentum is torque times time.
-    fn of_push(&self, file: &TaskFile, duration: f64) -> Option<HandCheck> {
-        let turned = file.world.applied_wrench.iter().any(|w| file.is_turned(w.axes.as_deref()));
-        if turned || file.phase.iter().any(PhaseFile::changes_the_load) {
+    fn of_push(&self, duration: f64) -> Option<HandCheck> {
+        let turned = self.case.wrenches.iter().any(|wrench| self.is_turned(wrench.axes));
+        if turned || changes_the_load(self.case) {
             return None;
         }
         let k = kinematics(&self.robot, &self.state);
-        let centre = self.centre_of_mass(file);
+        let centre = self.centre_of_mass();
         let (mut torque, mut momentum) = (Vec3::zero(), Vec3::zero());
         let mut how = vec![];
-        for wrench in &file.world.applied_wrench {
-            let lever = self.tool(&k, Some(&wrench.on))?.translation - centre;
-            let (force, twist) =
-                (Vec3::from_array(wrench.force_n), Vec3::from_array(wrench.torque_nm));
-            let (each, acting) = (lever.cross(force) + twist, wrench.acting(duration));
+        for wrench in &self.case.wrenches {
+            let lever = k.pose(&wrench.on).translation - centre;
+            let (force, twist) = (wrench.wrench.force, wrench.wrench.torque);
+            let (each, acting) = (lever.cross(force) + twist, acting(wrench, duration));
             torque += each;
             momentum += each * acting;
             let size = force.norm();
@@ -224,34 +130,33 @@ impl Start<'_> {
         Some(HandCheck { momentum: momentum.norm(), torque: torque.norm(), how: how.join(", ") })
     }
     /// The chain that carries a tool: its mass (kg), and the number of its first joint.
-    fn arm(&self, tool: &str) -> Option<(f64, usize)> {
-        let (robot, body) = (&self.vehicle.robot, self.vehicle.frame(tool)?.body);
-        let masses = robot.path_to_base(body).map(|j| robot.inertia(BodyId::Link(j)).mass);
-        Some((masses.sum(), robot.chain_root(body)?))
+    fn arm(&self, tool: &Frame<f64>) -> Option<(f64, usize)> {
+        let robot = &self.case.vehicle.robot;
+        let links = robot.path_to_base(tool.body);
+        let mass = links.map(|j| robot.inertia(BodyId::Link(j)).mass).sum();
+        Some((mass, robot.chain_root(tool.body)?))
     }
     /// Reduced mass times lever times speed for the load, half the tool's speed for the arm.
-    fn of_motion(&self, file: &TaskFile) -> Option<HandCheck> {
-        let motion = file.first_line()?;
-        if file.is_turned(motion.axes.as_deref()) {
+    fn of_motion(&self) -> Option<HandCheck> {
+        let line = first_line(self.case)?;
+        if self.is_turned(line.axes) {
             return None;
         }
-        let first = self.vehicle.tools.first().map(String::as_str);
-        let tool = file.control.tool.as_deref().or(first)?;
-        let (arm, root) = self.arm(tool)?;
-        let by = Vec3::from_array(motion.by_m?);
-        let pace = motion.pace(by.norm())?;
+        let (arm, root) = self.arm(&line.tool)?;
+        let by = line.displacement;
+        let pace = pace(line.timing, by.norm())?;
         let along = by * (1.0 / by.norm());
         let k = kinematics(&self.robot, &self.state);
-        let (load, p_load) = self.load(&k, file, |name| name == tool);
+        let (load, p_load) = self.load(&k, |tool| *tool == line.tool);
         // What other tools hold belongs to the rest.
         let ((own, p_own), (other, p_other)) =
-            (k.centre_of_mass(), self.load(&k, file, |name| name != tool));
+            (k.centre_of_mass(), self.load(&k, |tool| *tool != line.tool));
         let rest = own + other;
         let p_rest = (p_own * own + p_other * other) * (1.0 / rest);
-        let p_arm = (k.joint_origin(root) + self.tool(&k, Some(tool))?.translation) * 0.5;
+        let p_arm = (k.joint_origin(root) + k.pose(&line.tool).translation) * 0.5;
         // Seen from the base the load moves against all the rest; seen from outside the rest recoils.
         let reduced = load * rest / (rest + load);
-        let inertial = motion.axes.as_deref() != Some("base");
+        let inertial = line.axes == Axes::Inertial;
         let moved = if inertial { load } else { reduced };
         let each =
             (p_load - p_rest).cross(along) * moved + (p_arm - p_rest).cross(along) * (0.5 * arm);
@@ -267,49 +172,50 @@ impl Start<'_> {
     }
 }
 
-impl WrenchFile {
-    /// Time (s) for which it acts in a flight of this duration, a rise or a fall counted half.
-    fn acting(&self, duration: f64) -> f64 {
-        let whole = (duration - self.from_s).min(self.duration_s).max(0.0);
-        let fallen = self.from_s + self.duration_s <= duration;
-        let slopes = if fallen { self.ramp_s } else { 0.5 * self.ramp_s };
-        (whole - slopes).max(0.0)
-    }
+/// Time (s) for which a push acts in a flight of this duration, a rise or a fall counted half.
+fn acting(wrench: &AppliedWrench, duration: f64) -> f64 {
+    let whole = (duration - wrench.from).min(wrench.duration).max(0.0);
+    let fallen = wrench.from + wrench.duration <= duration;
+    let slopes = if fallen { wrench.ramp } else { 0.5 * wrench.ramp };
+    (whole - slopes).max(0.0)
 }
 
-impl MoveFile {
-    /// Of a quintic: 15/8 L/T and 10/√3 L/T². Of an s-curve that reaches its speed: the limits, or where
-    /// the jerk does not let it reach the acceleration the mean of what it does reach, √(v j).
-    fn pace(&self, length: f64) -> Option<Pace> {
-        if let Some(duration) = self.duration_s {
+/// Of a quintic: 15/8 L/T and 10/√3 L/T². Of an s-curve that reaches its speed: the limits, or where
+/// the jerk does not let it reach the acceleration the mean of what it does reach, √(v j).
+fn pace(timing: &Timing<f64>, length: f64) -> Option<Pace> {
+    let limits = match timing {
+        Timing::Duration(duration) => {
             let how = format!("quintic of {duration} s: 1.875 L/T and 5.774 L/T²");
             let speed = 1.875 * length / duration;
             let acceleration = 10.0 / 3.0_f64.sqrt() * length / (duration * duration);
             return Some(Pace { speed, acceleration, how });
         }
-        let limits = self.limits.as_ref().filter(|limits| limits.shape == "s-curve")?;
-        let (v, a, j) = (limits.speed_m_s, limits.acceleration_m_s2, limits.jerk_m_s3);
-        let acceleration = a.min((v * j).sqrt());
-        let ramp = v / acceleration + acceleration / j;
-        // The way must be long enough for the speed: half of it in each ramp.
-        (length >= v * ramp).then(|| Pace {
-            speed: v,
-            acceleration,
-            how: format!(
-                "s-curve to {v} m/s in {ramp:.2} s: torque {:.2} H/t",
-                acceleration * ramp / v
-            ),
-        })
-    }
+        Timing::Limits { shape: ProfileShape::SCurve, linear, .. } => linear,
+        Timing::Limits { .. } => return None,
+    };
+    let (v, a, j) = (limits.speed, limits.acceleration, limits.jerk);
+    let acceleration = a.min((v * j).sqrt());
+    let ramp = v / acceleration + acceleration / j;
+    // The way must be long enough for the speed: half of it in each ramp.
+    (length >= v * ramp).then(|| Pace {
+        speed: v,
+        acceleration,
+        how: format!(
+            "s-curve to {v} m/s in {ramp:.2} s: torque {:.2} H/t",
+            acceleration * ramp / v
+        ),
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use wrasse_flight::trajectory::MotionLimits;
+    use wrasse_mission::{Mission, read_mission};
 
     #[test]
     fn a_quintic_peaks_at_fifteen_eighths_and_ten_over_root_three() {
-        let pace = MoveFile { duration_s: Some(10.0), ..MoveFile::default() }.pace(2.0).unwrap();
+        let pace = pace(&Timing::Duration(10.0), 2.0).unwrap();
         assert_eq!(pace.speed, 0.375);
         // s = 10 t³ - 15 t⁴ + 6 t⁵ has its largest s'' = 60 t - 180 t² + 120 t³ at (3 - √3)/6.
         let t = (3.0 - 3.0_f64.sqrt()) / 6.0;
@@ -317,59 +223,70 @@ mod tests {
         assert!((pace.acceleration - largest).abs() < 1e-15, "{} {largest}", pace.acceleration);
     }
 
+    const LOAD: &str =
+        "[payload.cube]\nmass_kg = 1.0\nuniform_box_m = [1, 1, 1]\nheld_by = \"tool\"\n";
+    const LINE: &str =
+        "[[phase]]\nname = \"line\"\nmove_tool = { by_m = [0.1, 0, 0], duration_s = 1.0 }\n";
+    const HOLD: &str = "[[phase]]\nname = \"hold\"\nhold = { duration_s = 1.0 }\n";
+    const RELEASE: &str = "[[phase]]\nname = \"go\"\nrelease = { payload = \"cube\" }\n";
+
+    fn mission(parts: &[&str]) -> Mission {
+        let text = format!("name = \"m\"\nvehicle = \"atlas-class\"\n{}", parts.concat());
+        read_mission("m.toml", text).unwrap_or_else(|found| panic!("{found:?}"))
+    }
+
     #[test]
-    fn a_line_behind_a_grasp_or_in_turned_axes_is_no_work_for_a_hand() {
-        let line = || PhaseFile {
-            move_tool: Some(MoveFile { duration_s: Some(1.0), ..MoveFile::default() }),
-            ..PhaseFile::default()
+    fn a_line_behind_a_grip_or_in_turned_axes_is_no_work_for_a_hand() {
+        let posture = "[initial]\nposture = \"forward_300mm\"\n";
+        let is_first = |phases: &[&str]| {
+            let mission = mission(&[&[posture, LOAD], phases].concat());
+            first_line(&mission.cases[0]).is_some()
         };
-        let grasp = PhaseFile { grasp: Some(OtherFile {}), ..PhaseFile::default() };
-        let of = |phase| TaskFile { phase, ..TaskFile::default() };
-        assert!(of(vec![PhaseFile::default(), line(), grasp.clone()]).first_line().is_some());
-        assert!(of(vec![grasp, line()]).first_line().is_none());
-        let mut turned = of(vec![]);
-        assert!(!turned.is_turned(None));
-        turned.initial.attitude = Some(TurnFile { z: 0.1, ..TurnFile::default() });
-        assert!(turned.is_turned(None) && !turned.is_turned(Some("base")));
+        assert!(is_first(&[HOLD, LINE, RELEASE]));
+        assert!(!is_first(&[RELEASE, LINE]));
+        assert!(!is_first(&[HOLD]));
+        let turned = "[initial]\nposture = \"forward_300mm\"\nattitude = { rpy_deg = [0, 0, 5] }\n";
+        let mission = mission(&[turned, LOAD, LINE]);
+        let start = Start::new(&mission.cases[0]);
+        assert!(start.is_turned(Axes::Inertial) && !start.is_turned(Axes::Base));
+        assert!(start.by_hand(1.0).is_none());
     }
 
     #[test]
     fn a_push_counts_its_slopes_half() {
-        let push =
-            WrenchFile { from_s: 1.0, duration_s: 4.0, ramp_s: 0.5, ..WrenchFile::default() };
-        assert_eq!([0.5, 3.0, 9.0].map(|duration| push.acting(duration)), [0.0, 1.75, 3.5]);
+        let push = "[[world.applied_wrench]]\non = \"tool\"\nforce_n = [1, 0, 0]\nfrom_s = 1.0\n\
+                    duration_s = 4.0\nramp_s = 0.5\n";
+        let mission = mission(&[push, HOLD]);
+        let push = &mission.cases[0].wrenches[0];
+        assert_eq!([0.5, 3.0, 9.0].map(|duration| acting(push, duration)), [0.0, 1.75, 3.5]);
     }
 
     /// The tank of the reference was left out, and with it where thrusters turn the vehicle about.
     #[test]
     fn the_centre_of_mass_is_that_of_the_fuelled_vehicle() {
-        let vehicle = wrasse_vehicle::find_vehicle("planar-two-link", None).unwrap();
-        let mass = vehicle.robot.mass();
-        let tank = Tank { position_B: Vec3::from_array([0.0, 0.0, 1.0]), propellant: mass };
-        let centre = |tank| {
-            Start::new(&vehicle, tank, &State::default()).centre_of_mass(&TaskFile::default())
-        };
-        let (dry, wet) = (centre(None), centre(Some(tank)));
+        let mut mission = mission(&[HOLD]);
+        let case = &mut mission.cases[0];
+        case.equipment.actuators.tank = None;
+        let dry = Start::new(case).centre_of_mass();
+        let position_B = Vec3::from_array([0.0, 0.0, 1.0]);
+        let propellant = case.vehicle.robot.mass();
+        case.equipment.actuators.tank = Some(wrasse_hardware::Tank { position_B, propellant });
+        let wet = Start::new(case).centre_of_mass();
         assert!((wet.z - 0.5 * (dry.z + 1.0)).abs() < 1e-14, "{dry:?} {wet:?}");
     }
 
     /// Ramps of one second: pure jerk doubles the mean acceleration, most of it constant does not.
     #[test]
     fn an_s_curve_peaks_at_its_limits_or_where_its_jerk_ends() {
-        let curve = |acceleration_m_s2, jerk_m_s3| MoveFile {
-            limits: Some(LimitsFile {
-                shape: "s-curve".into(),
-                speed_m_s: 0.1,
-                acceleration_m_s2,
-                jerk_m_s3,
-            }),
-            ..MoveFile::default()
+        let curve = |acceleration, jerk| {
+            let linear = MotionLimits { speed: 0.1, acceleration, jerk };
+            Timing::Limits { shape: ProfileShape::SCurve, linear, angular: linear }
         };
-        let pure = curve(1.0, 0.4).pace(1.0).unwrap();
+        let pure = pace(&curve(1.0, 0.4), 1.0).unwrap();
         assert!((pure.acceleration - 0.2).abs() < 1e-15, "{}", pure.acceleration);
         assert!(pure.how.contains("in 1.00 s: torque 2.00 H/t"), "{}", pure.how);
-        let flat = curve(0.125, 0.625).pace(1.0).unwrap();
+        let flat = pace(&curve(0.125, 0.625), 1.0).unwrap();
         assert!(flat.acceleration == 0.125 && flat.how.contains("in 1.00 s: torque 1.25 H/t"));
-        assert!(curve(1.0, 0.4).pace(0.09).is_none());
+        assert!(pace(&curve(1.0, 0.4), 0.09).is_none());
     }
 }

@@ -2,6 +2,7 @@
 //! the sets of `studies/sets.toml`, or the units of the hardware catalogue.
 
 use toml::{Table, Value};
+use wrasse_document::{Document, at};
 use wrasse_dynamics::BodyId;
 use wrasse_hardware::Tank;
 use wrasse_mission::Mission;
@@ -57,18 +58,17 @@ pub(crate) fn shipped() -> (SetRow, Vec<SetRow>) {
     (rows.next().unwrap_or_else(none), rows.collect())
 }
 
-/// The text of a mission with these sets, the reference first.
-pub(crate) fn with_sets(text: &str, rows: &[&SetRow]) -> String {
-    let mut study = Table::new();
-    study.insert("sets".into(), AXIS.into());
-    study.insert("reference".into(), rows.first().map_or("", |row| row.name.as_str()).into());
+/// A mission with these sets laid over it, the reference first.
+pub(crate) fn with_sets(mission: &Document, rows: &[&SetRow]) -> Document {
+    let reference = rows.first().map_or("", |row| row.name.as_str());
     let mut axis = Table::new();
     axis.insert("axis".into(), AXIS.into());
     axis.insert("row".into(), Value::Array(rows.iter().map(|row| row.value()).collect()));
-    let mut added = Table::new();
-    added.insert("study".into(), Value::Table(study));
-    added.insert("compare".into(), Value::Array(vec![Value::Table(axis)]));
-    format!("{text}\n{added}")
+    let axes = mission.len(at!["compare"]);
+    mission
+        .with(at!["study", "sets"], &AXIS.into())
+        .with(at!["study", "reference"], &reference.into())
+        .with(at!["compare", axes], &Value::Table(axis))
 }
 
 /// The vehicle's own units: those that the mission or the vehicle has, without any the ideal actuator

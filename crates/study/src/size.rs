@@ -10,12 +10,11 @@ use crate::hand_check::Start;
 use crate::judgement::{Judgement, judge};
 use crate::outcome::{Finding, Flown, SetCard, SetKind, SetVerdict, StudyOutcome, TaskOutcome};
 use crate::study::{Study, Task};
-use wrasse_dynamics::{JointKind, State};
 use wrasse_hardware::{List, ReactionWheel};
 use wrasse_mission::{Progress, ProvenanceRow};
 use wrasse_rehearsal::{Booking, CaseOutcome, End, EventKind, Metric, Source};
 use wrasse_spatial::{Vec3, vec3};
-use wrasse_vehicle::{Equipment, Grade, Vehicle};
+use wrasse_vehicle::{Equipment, Grade};
 
 /// Rings of faces on a drawn surface, from pole to pole.
 const RINGS: u16 = 10;
@@ -172,12 +171,10 @@ fn surfaces(capability: &Capability) -> Vec<Mesh> {
 /// A task from its flights: the reference first, then the other sets if they were flown.
 fn task_outcome(study: &Study, task: &Task, flown: &[CaseOutcome]) -> TaskOutcome {
     let reference = &flown[0];
-    let vehicle = &study.mission.cases[task.cases[study.reference]].vehicle;
     let own_motion = is_own_motion(reference);
     let demand = demand(reference);
-    let tank = study.mission.cases[task.cases[study.reference]].equipment.actuators.tank;
-    let start = Start::new(vehicle, tank, &state(vehicle, reference));
-    let centre = start.centre_of_mass(&task.file);
+    let start = Start::new(&study.mission.cases[task.cases[study.reference]]);
+    let centre = start.centre_of_mass();
     let mut others = flown[1..].iter();
     let verdicts = (0..study.sets.len()).map(|k| {
         let ideal = k == study.reference;
@@ -201,7 +198,7 @@ fn task_outcome(study: &Study, task: &Task, flown: &[CaseOutcome]) -> TaskOutcom
         peak_torque_by_axis_nm: demand.torque_by_axis().to_array(),
         peak_momentum_nms: demand.peak_momentum().norm(),
         gathered_nm: demand.sustained().filter(|_| !own_motion).map(Vec3::norm),
-        by_hand: start.by_hand(&task.file, demand.duration()),
+        by_hand: start.by_hand(demand.duration()),
         tool_error_mm: 1e3 * largest_tool_error(reference),
         verdicts,
         demand: demand.thinned(),
@@ -255,19 +252,6 @@ fn holding_force(case: &CaseOutcome, demand: &Demand) -> Vec<Vec3<f64>> {
     let whole: f64 = torques().zip(steps).map(|(torque, step)| torque * step).sum();
     let share = if whole > 0.0 { 1.0 / whole } else { 0.0 };
     torques().map(|torque| impulse * (-torque * share)).collect()
-}
-
-/// The vehicle at the start, from the first sample of its joints.
-fn state<const J: usize>(vehicle: &Vehicle, case: &CaseOutcome) -> State<f64, J> {
-    let mut state = State::default();
-    for (j, name) in vehicle.joint_names.iter().enumerate().take(J) {
-        let path = format!("joint.{name}.position");
-        let channel = case.telemetry.channels.iter().find(|channel| channel.name == path);
-        let first = channel.and_then(|c| c.values.first()).copied().unwrap_or_default();
-        let turns = vehicle.robot.joint(j).kind == JointKind::Revolute;
-        state.q[j] = if turns { first.to_radians() } else { 1e-3 * first };
-    }
-    state
 }
 
 fn largest_tool_error(case: &CaseOutcome) -> f64 {

@@ -1,13 +1,12 @@
 //! A study: a mission file whose cases are tasks and sets of actuators.
 
-use crate::hand_check::TaskFile;
 use crate::own_units::without_own_units;
 use crate::sets::{Catalogue, SetRow, as_fitted, fed, of_catalogue, shipped, with_sets};
-use crate::study_table::{Axes, complaints};
+use crate::study_table::complaints;
 use std::path::{Path, PathBuf};
-use toml::{Table, Value};
+use toml::Table;
 use wrasse_document::{Complaint, Document, at};
-use wrasse_mission::{Mission, read_mission};
+use wrasse_mission::{Mission, mission_of};
 
 /// A mission file, checked, with its cases told apart by task and set.
 #[derive(Debug)]
@@ -27,8 +26,6 @@ pub struct Study {
 pub(crate) struct Task {
     /// (axis, row) of all axes but that of the sets.
     pub(crate) labels: Vec<(String, String)>,
-    /// What the file says of it that a hand can reckon with.
-    pub(crate) file: TaskFile,
     /// Whether it is flown with every set.
     pub(crate) closed_loop: bool,
     /// Number of the case with each set.
@@ -60,31 +57,30 @@ pub fn read_study_with(
 fn read_at(path: &Path, text: &str, catalogue: &[Catalogue]) -> Result<Study, Vec<Complaint>> {
     let document = Document::parse(path, text)?;
     let wrong = complaints(&document);
-    let mission = match read_mission(path, text) {
+    let mission = match mission_of(&document) {
         Ok(mission) if wrong.is_empty() => mission,
         Ok(_) => return Err(wrong),
         Err(found) => return Err([found, wrong].concat()),
     };
     if mission.study.is_none() {
-        return laid_over(path, text, &mission, catalogue);
+        return laid_over(&document, &mission, catalogue);
     }
     if !catalogue.is_empty() {
         let message = "the study brings its own sets".to_owned();
         let help = "leave out --catalogue, or the table [study] and the axis of its sets";
         return Err(vec![document.error(at!["study"], message, "here").with_help(help)]);
     }
-    beside_own_units(path, text, mission, &document)
+    Ok(beside_own_units(mission, &document))
 }
 
 /// A mission with sets that it does not bring itself. Those that its vehicle cannot be flown with are
 /// left out.
 fn laid_over(
-    path: &Path,
-    text: &str,
+    document: &Document,
     mission: &Mission,
     catalogue: &[Catalogue],
 ) -> Result<Study, Vec<Complaint>> {
-    let (plain, own) = without_own_units(text);
+    let (plain, own) = without_own_units(document);
     let (reference, mut sets) = shipped();
     if !catalogue.is_empty() {
         let of_kind = |kind: &Catalogue| of_catalogue(*kind, &mission.cases[0].vehicle);
@@ -93,29 +89,19 @@ fn laid_over(
     let mut sets = fed(sets, mission.cases[0].equipment.actuators.tank);
     sets.insert(0, as_fitted(mission, 0, &own));
     // What is wrong with the reference is wrong with the mission.
-    read_mission(path, with_sets(&plain, &[&reference]))?;
+    mission_of(&with_sets(&plain, &[&reference]))?;
     let all: Vec<&SetRow> = core::iter::once(&reference).chain(&sets).collect();
-    let mut whole = with_sets(&plain, &all);
-    let mut read = read_mission(path, whole.as_str());
-    let mut left_out = vec![];
-    if read.is_err() {
-        let mut is_flown =
-            |set: &SetRow| match read_mission(path, with_sets(&plain, &[&reference, set])) {
-                Ok(_) => true,
-                Err(found) => {
-                    left_out.push((set.name.clone(), reason(&found)));
-                    false
-                }
-            };
-        let mut kept = vec![&reference];
-        kept.extend(sets.iter().filter(|set| is_flown(set)));
-        whole = with_sets(&plain, &kept);
-        read = read_mission(path, whole.as_str());
+    if let Ok(whole) = mission_of(&with_sets(&plain, &all)) {
+        return Ok(study_of(whole));
     }
-    let mut mission = read?;
-    text.clone_into(&mut mission.text);
-    let document = Document::parse(path, whole)?;
-    Ok(Study { left_out, ..study_of(mission, &document) })
+    let (mut kept, mut left_out) = (vec![&reference], vec![]);
+    for set in &sets {
+        match mission_of(&with_sets(&plain, &[&reference, set])) {
+            Ok(_) => kept.push(set),
+            Err(found) => left_out.push((set.name.clone(), reason(&found))),
+        }
+    }
+    Ok(Study { left_out, ..study_of(mission_of(&with_sets(&plain, &kept))?) })
 }
 
 /// The first of what is complained of, in a line.
@@ -124,24 +110,14 @@ fn reason(found: &[Complaint]) -> String {
 }
 
 /// A study with its own sets, and with the vehicle's own units if none of them are these.
-fn beside_own_units(
-    path: &Path,
-    text: &str,
-    mission: Mission,
-    document: &Document,
-) -> Result<Study, Vec<Complaint>> {
-    let Some(row) = own_units_missing(&mission) else { return Ok(study_of(mission, document)) };
-    let Some(whole) = with_row(text, &mission, &row) else {
-        return Ok(study_of(mission, document));
-    };
-    match read_mission(path, whole.as_str()) {
-        Ok(mut more) => {
-            text.clone_into(&mut more.text);
-            Ok(study_of(more, &Document::parse(path, whole)?))
-        }
+fn beside_own_units(mission: Mission, document: &Document) -> Study {
+    let Some(row) = own_units_missing(&mission) else { return study_of(mission) };
+    let Some(more) = with_row(document, &mission, &row) else { return study_of(mission) };
+    match mission_of(&more) {
+        Ok(more) => study_of(more),
         Err(found) => {
             let left_out = vec![(row.name, reason(&found))];
-            Ok(Study { left_out, ..study_of(mission, document) })
+            Study { left_out, ..study_of(mission) }
         }
     }
 }
@@ -161,18 +137,18 @@ fn own_units_missing(mission: &Mission) -> Option<SetRow> {
     missing.then(|| as_fitted(mission, reference, &Table::new()))
 }
 
-/// The text of a study with one more set.
-fn with_row(text: &str, mission: &Mission, row: &SetRow) -> Option<String> {
+/// A study with one more set.
+fn with_row(document: &Document, mission: &Mission, row: &SetRow) -> Option<Document> {
     let sets = &mission.study.as_ref()?.sets;
-    let mut file = text.parse::<Table>().ok()?;
-    let axes = file.get_mut("compare")?.as_array_mut()?;
-    let named = |axis: &&mut Value| axis.get("axis").and_then(Value::as_str) == Some(sets);
-    axes.iter_mut().find(named)?.get_mut("row")?.as_array_mut()?.push(row.value());
-    Some(file.to_string())
+    let named =
+        |i: &usize| document.value(at!["compare", *i, "axis"]) == Some(sets.as_str().into());
+    let axis = (0..document.len(at!["compare"])).find(named)?;
+    let rows = document.len(at!["compare", axis, "row"]);
+    Some(document.with(at!["compare", axis, "row", rows], &row.value()))
 }
 
 /// The cases of a mission told apart by task and set.
-fn study_of(mission: Mission, document: &Document) -> Study {
+fn study_of(mission: Mission) -> Study {
     let table = mission.study.clone().expect("whoever calls has seen it");
     let labels_of = |case: usize| mission.cases[case].labels.iter();
     let mut sets: Vec<String> = vec![];
@@ -192,26 +168,10 @@ fn study_of(mission: Mission, document: &Document) -> Study {
         // A file that names no axis of tasks has one task, which is flown with every set.
         let row = labels.iter().find(|(axis, _)| Some(axis) == table.tasks.as_ref());
         let closed_loop = row.is_none_or(|(_, row)| table.closed_loop.contains(row));
-        let file = task_file(document, &labels);
-        tasks.push(Task { labels, file, closed_loop, cases: vec![case] });
+        tasks.push(Task { labels, closed_loop, cases: vec![case] });
     }
     let reference = sets.iter().position(|set| *set == table.reference).unwrap_or(0);
     Study { mission, sets, reference, tasks, left_out: vec![] }
-}
-
-/// The document with the rows of a task laid over it, as far as a hand reads it.
-fn task_file(document: &Document, labels: &[(String, String)]) -> TaskFile {
-    let mut varied = document.clone();
-    let axes = document.read_in_part::<Axes>().value.unwrap_or_default();
-    for (i, axis) in axes.compare.iter().enumerate() {
-        let chosen = labels.iter().find(|(name, _)| *name == axis.axis);
-        let place = chosen.and_then(|(_, row)| axis.row.iter().position(|r| r.name == *row));
-        if let Some(k) = place {
-            varied = varied.overlaid(at!["compare", i, "row", k, "set"], &[]);
-        }
-    }
-    // The mission has been checked: what this does not know is not wrong.
-    varied.read_in_part().value.unwrap_or_default()
 }
 
 impl Study {

@@ -7,11 +7,11 @@ use wrasse_document::{Complaint, Document, Step, at, closest};
 
 /// The axes of a file, as far as their names go, and its table `[study]`.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
-pub(crate) struct Axes {
+struct Axes {
     #[serde(default)]
     study: Option<TableFile>,
     #[serde(default)]
-    pub(crate) compare: Vec<Axis>,
+    compare: Vec<Axis>,
 }
 
 /// The table, as far as it can be read.
@@ -32,15 +32,15 @@ struct TableFile {
 }
 
 #[derive(Debug, Deserialize, JsonSchema)]
-pub(crate) struct Axis {
-    pub(crate) axis: String,
+struct Axis {
+    axis: String,
     #[serde(default)]
-    pub(crate) row: Vec<Row>,
+    row: Vec<Row>,
 }
 
 #[derive(Debug, Deserialize, JsonSchema)]
-pub(crate) struct Row {
-    pub(crate) name: String,
+struct Row {
+    name: String,
 }
 
 /// Complaints about the table `[study]` of a file, if it has one: what it names must be there.
