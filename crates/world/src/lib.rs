@@ -9,6 +9,7 @@ mod advance;
 mod command;
 mod couplings;
 mod effectors;
+mod environment;
 mod events;
 mod failure;
 mod free_body;
@@ -33,6 +34,7 @@ pub use effectors::{
     TankWithPropellant,
 };
 pub use effectors::{FlexibleJoint, FlexibleJoints, JointSpring, PassiveJoints};
+pub use environment::Environment;
 pub use events::{Crossing, Event, EventValue, Happening};
 pub use failure::Failure;
 pub use free_body::FreeBody;

@@ -1,7 +1,8 @@
-//! The scene: systems in free space, what couples them, and their motion through time.
+//! The scene: systems, what couples and what surrounds them, and their motion through time.
 
 use crate::couplings::{Coupled, Coupling};
 use crate::effectors::{AppliedWrench, Effector, GimbalMotors};
+use crate::environment::Environment;
 use crate::events::Watched;
 use crate::free_body::FreeBody;
 use crate::integrate::{DormandPrince, RungeKutta4, Stepper};
@@ -43,11 +44,12 @@ pub(crate) struct Clock {
     pub(crate) within: f64,
 }
 
-/// Systems, what couples them, and the way through time. No system is privileged: a servicer, its
+/// Systems, what couples them, what surrounds them, and the way through time. No system is privileged: a servicer, its
 /// client and a rigid body that floats by itself are systems alike, and all are integrated together.
 pub struct Scene<const J: usize> {
     pub(crate) systems: Vec<Option<System<J>>>,
     pub(crate) couplings: Vec<Option<Coupled>>,
+    pub(crate) environment: Environment,
     pub(crate) clock: Clock,
     pub(crate) stepper: Stepper,
     /// Last accepted step of the adaptive stepper (s).
@@ -75,11 +77,12 @@ impl<const J: usize> fmt::Debug for Scene<J> {
 }
 
 impl<const J: usize> Scene<J> {
-    /// An empty scene at time zero.
+    /// An empty scene in free space at time zero.
     pub fn new(stepper: Stepper) -> Self {
         Self {
             systems: vec![],
             couplings: vec![],
+            environment: Environment::FreeSpace,
             clock: Clock::default(),
             stepper,
             last_step: 0.01,
@@ -129,6 +132,10 @@ impl<const J: usize> Scene<J> {
         if let Some(coupled) = self.couplings.get_mut(id.0) {
             *coupled = None;
         }
+    }
+    /// What surrounds the systems from now on.
+    pub fn set_environment(&mut self, environment: Environment) {
+        self.environment = environment;
     }
     /// Let an effector act on a system from now on.
     ///
