@@ -30,8 +30,8 @@ pub use advance::NonFinite;
 pub use command::Saturation;
 pub use couplings::{Bushing, Coupling, FrameMotion};
 pub use effectors::{
-    AppliedWrench, Course, Effector, GimbalMotors, Instant, Load, PeriodCommand, Stage,
-    TankWithPropellant,
+    AppliedWrench, Course, Effector, GimbalMotors, Instant, Load, PeriodCommand, SloshPendulum,
+    SloshingTank, Stage, TankWithPropellant,
 };
 pub use effectors::{FlexibleJoint, FlexibleJoints, JointSpring, PassiveJoints};
 pub use environment::Environment;

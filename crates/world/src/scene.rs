@@ -96,6 +96,9 @@ impl<const J: usize> Scene<J> {
         }
     }
     /// Add a system.
+    ///
+    /// # Panics
+    /// If its propellant swings and the robot has no room for two joints more.
     pub fn add(&mut self, setup: &SystemSetup<'_, J>) -> SystemId {
         self.put(System::new(setup))
     }
@@ -199,7 +202,8 @@ impl<const J: usize> Scene<J> {
 /// What is seen of a system. All of these panic if the system is part of another now.
 impl<const J: usize> Scene<J> {
     /// The robot with its propellant and what it holds. Where it has wheels, their inertia about their
-    /// axes is not in its base: they turn by themselves.
+    /// axes is not in its base: they turn by themselves. Propellant that swings has two joints behind
+    /// the robot's own.
     pub fn robot(&self, id: SystemId) -> &Robot<f64, J> {
         &self.system(id).robot
     }
@@ -211,6 +215,22 @@ impl<const J: usize> Scene<J> {
         let t = self.clock.into_period;
         let state = system.expand(&system.row, &system.quat_NB, t, configuration);
         self.places.set(Some(places));
+        state
+    }
+    /// The robot as if its propellant did not swing: what a flight computer takes it for that knows how
+    /// much there is. It is the [`robot`](Self::robot) where none swings.
+    pub fn rigid_robot(&self, id: SystemId) -> &Robot<f64, J> {
+        let system = self.system(id);
+        system.rigid.as_deref().unwrap_or(&system.robot)
+    }
+    /// The state without the joints by which propellant swings: that of the
+    /// [`rigid_robot`](Self::rigid_robot).
+    pub fn rigid_state(&self, id: SystemId) -> State<f64, J> {
+        let (mut state, own) = (self.state(id), self.system(id).dry.joint_count());
+        if self.system(id).slosh.is_some() {
+            state.q[own..].fill(0.0);
+            state.v[own..].fill(0.0);
+        }
         state
     }
     /// Attitude of the base, `quat_NB`.

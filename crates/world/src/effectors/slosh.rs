@@ -1,0 +1,432 @@
+//! Liquid that swings in the tank: a pendulum on two joints behind those of the vehicle.
+//!
+//! Its dynamics are the tree's, so whatever the tree conserves it conserves. Here is what the tree does
+//! not know: how heavy and how long the pendulum is at a fill level, what damps and restores it, and what
+//! becomes of it as propellant leaves.
+
+use super::{Effector, Load, Stage, TankWithPropellant};
+use crate::scene::Scene;
+use crate::setup::Drive;
+use crate::source::Source;
+use crate::system::System;
+use wrasse_dynamics::{
+    BodyId, Configuration, Joint, JointKind, MassProperties, Robot, State, kinematics,
+    kinetic_energy,
+};
+use wrasse_hardware::{ActuatorReadings, SetPointMotion, Slosh, Tank};
+use wrasse_spatial::{Mat3, Pose, Quat, Sym3, Vec3, turned_by, vec3};
+
+/// First zero of `J₁'` (–): the wave number of the first mode across a tank, times its radius.
+const FIRST_ZERO: f64 = 1.841_183_781_340_659_4;
+/// Depth, as a share of the radius, below which the liquid is still: the pendulum of a film is endless.
+const SHALLOW: f64 = 0.1;
+/// Angle of the second joint beyond which its coordinates begin anew (rad): at a quarter turn the first
+/// joint's axis goes through the bob.
+const FAR: f64 = 0.5;
+
+/// The first mode of a liquid in an upright cylinder, as a pendulum beside a mass at rest.
+///
+/// With `κ = 1.8412/R`: frequency `ω² = g κ tanh κh`, length `L = g/ω²`, mass
+/// `m₁ = m 2 tanh κh / (κh (1.8412² - 1))`, at rest `h - (2/κ) tanh κh/2` above the bottom. What is left of the
+/// liquid is a point where both together have its centre of mass.
+///
+/// # Assumptions
+/// Small waves; the modes above the first and the liquid's own turning are part of the mass at rest,
+/// which is a point.
+///
+/// # Source
+/// Derived from the potential flow in `book/src/theory/slosh.md`;
+/// [`Abramson1966`](wrasse_spatial::references::Abramson1966) ch. 6 and
+/// [`Dodge2000`](wrasse_spatial::references::Dodge2000) ch. 3 have models of this form.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SloshPendulum {
+    /// What swings (kg).
+    pub mass: f64,
+    /// From the hinge to it (m).
+    pub length: f64,
+    /// Of the hinge above the bottom (m).
+    pub hinge_height: f64,
+    /// What does not swing (kg).
+    pub rest_mass: f64,
+    /// Of that above the bottom (m).
+    pub rest_height: f64,
+    /// Damping about the hinge (N·m·s/rad).
+    pub damping: f64,
+}
+
+impl SloshPendulum {
+    /// Of so much liquid (kg); `None` where it is too shallow to swing.
+    pub fn of(slosh: &Slosh, liquid: f64) -> Option<Self> {
+        let (R, h) = (slosh.radius, depth(slosh, liquid));
+        // What is not a number does not swing.
+        if !(h >= SHALLOW * R && h.is_finite()) {
+            return None;
+        }
+        let kappa = FIRST_ZERO / R;
+        let tanh = libm::tanh(kappa * h);
+        let share = 2.0 * tanh / (kappa * h * (FIRST_ZERO * FIRST_ZERO - 1.0));
+        let (mass, length) = (liquid * share, 1.0 / (kappa * tanh));
+        let height = h - 2.0 / kappa * libm::tanh(0.5 * kappa * h);
+        let rest_mass = liquid - mass;
+        let inertia = mass * length * length;
+        let square = slosh.acceleration / length + slosh.stiffness / inertia;
+        Some(Self {
+            mass,
+            length,
+            hinge_height: height + length,
+            rest_mass,
+            rest_height: (0.5 * h * liquid - height * mass) / rest_mass,
+            damping: 2.0 * slosh.damping_ratio * libm::sqrt(square) * inertia,
+        })
+    }
+}
+
+/// How deep so much liquid (kg) is (m).
+fn depth(slosh: &Slosh, liquid: f64) -> f64 {
+    liquid / (slosh.density * std::f64::consts::PI * slosh.radius * slosh.radius)
+}
+
+/// A tank in which the propellant swings.
+#[derive(Debug, Clone)]
+pub struct SloshingTank {
+    /// What is in it; it leaves at the bottom.
+    tank: TankWithPropellant,
+    slosh: Slosh,
+    /// Centre of the propellant at the start (m).
+    centre_B: Vec3<f64>,
+    /// `None` once it is too shallow to swing.
+    pendulum: Option<SloshPendulum>,
+    /// Number of its first joint.
+    joint: usize,
+    /// Attitude of the frame F in which the rod at zero angles hangs along -z.
+    quat_BF: Quat<f64>,
+}
+
+/// A joint and what it carries.
+type Link = (Joint<f64>, MassProperties<f64>);
+
+impl SloshingTank {
+    /// Hanging along its axis, by joints that have numbers from `joint` on; `None` if nothing swings.
+    pub(crate) fn new(tank: &Tank<f64>, slosh: &Slosh, joint: usize) -> Option<Self> {
+        let pendulum = SloshPendulum::of(slosh, tank.propellant)?;
+        let bottom_B = tank.position_B - slosh.axis_B * (0.5 * depth(slosh, tank.propellant));
+        Some(Self {
+            tank: TankWithPropellant { position_B: bottom_B, mass: tank.propellant },
+            slosh: *slosh,
+            centre_B: tank.position_B,
+            pendulum: Some(pendulum),
+            joint,
+            quat_BF: from_z_to(slosh.axis_B),
+        })
+    }
+    /// Number of its first joint; the other is the next.
+    pub(crate) fn first_joint(&self) -> usize {
+        self.joint
+    }
+    /// The whole propellant, as if it did not swing, where it was at the start.
+    pub(crate) fn at_rest(&self) -> MassProperties<f64> {
+        MassProperties::from_central(self.tank.mass, self.centre_B, Sym3::zero())
+    }
+    /// Its two joints: about x of F, then about y, with what swings on the second.
+    fn links(&self) -> [Link; 2] {
+        let (mass, length, height) = match &self.pendulum {
+            Some(p) => (p.mass, p.length, p.hinge_height),
+            None => (0.0, 0.0, 0.0),
+        };
+        let hinge_B = self.tank.position_B + self.slosh.axis_B * height;
+        let (x, y) = (vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0));
+        let joint = |parent, X, axis| Joint::new(parent, JointKind::Revolute, X, axis);
+        let bob = MassProperties::from_central(mass, vec3(0.0, 0.0, -length), Sym3::zero());
+        let on = BodyId::Link(self.joint);
+        [
+            (joint(BodyId::Base, Pose::from_quat(self.quat_BF, hinge_B), x), Default::default()),
+            (joint(on, Pose::identity(), y), bob),
+        ]
+    }
+    /// The robot with its links behind the others.
+    ///
+    /// # Panics
+    /// If the robot has no room for them.
+    pub(crate) fn hung_on<const J: usize>(&self, robot: &Robot<f64, J>) -> Robot<f64, J> {
+        let of = |body| MassProperties {
+            M_F_F: *robot.inertia(body),
+            I_parts_F: *robot.inertia_of_parts(body),
+        };
+        let (own, n) = (self.links(), robot.joint_count());
+        assert!(n + own.len() <= J, "{n} joints: no room for the two by which propellant swings");
+        let links: [Link; J] = core::array::from_fn(|j| match j {
+            j if j < n => (*robot.joint(j), of(BodyId::Link(j))),
+            j => own[(j - n).min(1)],
+        });
+        let hung = Robot::new(of(BodyId::Base), &links[..n + own.len()]);
+        hung.unwrap_or_else(|_| unreachable!("there is room, and parents come first"))
+    }
+    /// Let coordinates begin anew where the rod has swung far: the same rod, moving the same way.
+    fn recentre(&mut self, [q1, q2]: [f64; 2], v: [f64; 2]) -> Option<[f64; 2]> {
+        if q2.abs() < FAR {
+            return None;
+        }
+        let rod = Rod::of([q1, q2], v);
+        let R_FG = rod.R_FG;
+        self.quat_BF = turned_by(turned_by(self.quat_BF, vec3(q1, 0.0, 0.0)), vec3(0.0, q2, 0.0));
+        let w_G = R_FG.transpose_mul(rod.w);
+        Some([w_G.x, w_G.y])
+    }
+}
+
+/// A rotation that takes z to an axis.
+fn from_z_to(axis: Vec3<f64>) -> Quat<f64> {
+    let z = vec3(0.0, 0.0, 1.0);
+    let across = z.cross(axis);
+    let angle = libm::atan2(across.norm(), axis.z);
+    let about =
+        if across.norm() > 0.0 { across * (1.0 / across.norm()) } else { vec3(1.0, 0.0, 0.0) };
+    Quat::exp(about * angle)
+}
+
+/// The rod at joint angles (rad) and rates (rad/s), all in F axes.
+struct Rod {
+    /// Axes of the joints.
+    axes: [Vec3<f64>; 2],
+    /// Attitude of the second link.
+    R_FG: Mat3<f64>,
+    /// From the hinge to the bob.
+    along: Vec3<f64>,
+    /// How it turns against the base.
+    w: Vec3<f64>,
+}
+
+impl Rod {
+    fn of(q: [f64; 2], v: [f64; 2]) -> Self {
+        let (s1, c1) = (libm::sin(q[0]), libm::cos(q[0]));
+        let (s2, c2) = (libm::sin(q[1]), libm::cos(q[1]));
+        let axes = [vec3(1.0, 0.0, 0.0), vec3(0.0, c1, s1)];
+        let R_FG = Mat3::from_rows(
+            vec3(c2, 0.0, s2),
+            vec3(s1 * s2, c1, -s1 * c2),
+            vec3(-c1 * s2, s1, c1 * c2),
+        );
+        let along = -(R_FG * vec3(0.0, 0.0, 1.0));
+        Self { axes, R_FG, along, w: axes[0] * v[0] + axes[1] * v[1] }
+    }
+}
+
+impl<const J: usize> Effector<J> for SloshingTank {
+    fn source(&self) -> Source {
+        Source::Slosh
+    }
+    fn acts_on_held_base(&self) -> bool {
+        true
+    }
+    /// On the rod the torque `k u × d - c (w - u (u·w))`: what it does across itself, for a rod does not turn about
+    /// its own line. `u` is its direction, `d` that at rest.
+    fn act(&self, at: &Stage<'_, J>, _own: &[f64], load: &mut Load<'_, J>, _rates: &mut [f64]) {
+        let (Some(pendulum), j) = (&self.pendulum, self.joint) else { return };
+        let v = [at.state.v[j], at.state.v[j + 1]];
+        let Rod { axes, along, w, .. } = Rod::of([at.state.q[j], at.state.q[j + 1]], v);
+        let down_F = -self.quat_BF.to_matrix().transpose_mul(self.slosh.axis_B);
+        let across = w - along * along.dot(w);
+        let torque = along.cross(down_F) * self.slosh.stiffness - across * pendulum.damping;
+        for i in 0..2 {
+            load.drive(j + i, v[i], axes[i].dot(torque));
+        }
+    }
+    /// What does not swing.
+    fn mass_properties(&self) -> Option<MassProperties<f64>> {
+        let half = 0.5 * depth(&self.slosh, self.tank.mass);
+        let (mass, height) = match &self.pendulum {
+            Some(p) => (p.rest_mass, p.rest_height),
+            None => (self.tank.mass, half),
+        };
+        let p_B = self.tank.position_B + self.slosh.axis_B * height;
+        Some(MassProperties::from_central(mass, p_B, Sym3::zero()))
+    }
+    fn read(&self, _own: &[f64], _w_NB_B: Vec3<f64>, readings: &mut ActuatorReadings<f64>) {
+        readings.propellant = self.tank.mass;
+    }
+    fn tank(&mut self) -> Option<&mut TankWithPropellant> {
+        Some(&mut self.tank)
+    }
+    fn slosh(&self) -> Option<&SloshingTank> {
+        Some(self)
+    }
+    fn slosh_mut(&mut self) -> Option<&mut SloshingTank> {
+        Some(self)
+    }
+}
+
+impl<const J: usize> System<J> {
+    /// The tank in which the propellant swings.
+    pub(crate) fn slosh(&self) -> Option<&SloshingTank> {
+        self.effectors.get(self.slosh?)?.slosh()
+    }
+    fn slosh_mut(&mut self) -> Option<&mut SloshingTank> {
+        self.effectors.get_mut(self.slosh?)?.slosh_mut()
+    }
+    /// Where the coordinates of the swing are in the row: angles, rates.
+    fn slosh_places(&self, first: usize) -> [usize; 4] {
+        let (q, v) = (self.variables.q().start + first, self.variables.v().start + first);
+        [q, q + 1, v, v + 1]
+    }
+    fn recentre_slosh(&mut self) {
+        let Some(first) = self.slosh().map(SloshingTank::first_joint) else { return };
+        let places = self.slosh_places(first);
+        let [q1, q2, v1, v2] = places.map(|at| self.row[at]);
+        let Some(slosh) = self.slosh_mut().filter(|s| s.pendulum.is_some()) else { return };
+        let Some([w1, w2]) = slosh.recentre([q1, q2], [v1, v2]) else { return };
+        for (at, x) in places.into_iter().zip([0.0, 0.0, w1, w2]) {
+            (self.row[at], self.carry[at]) = (x, 0.0);
+        }
+        self.weigh();
+    }
+    /// Propellant `dm` (kg) has gone from `p_N` with the momentum `away`: the pendulum is that of what is left,
+    /// which went to its place within the tank, so that centre of mass and momentum of what is left
+    /// continue, and with them the joints. The change of the kinetic energy (J) is returned.
+    ///
+    /// Once it is too shallow it swings no more: that, too, is between liquid and tank.
+    pub(crate) fn settle_slosh(
+        &mut self,
+        state: &State<f64, J>,
+        (p_N, away, dm): (Vec3<f64>, Vec3<f64>, f64),
+        t: f64,
+    ) -> f64 {
+        let before = kinetic_energy(&kinematics(&self.robot, state));
+        let (mass, (p_cm, linear, angular)) = (self.mass, self.momentum());
+        let Some(slosh) = self.slosh_mut() else { return 0.0 };
+        let first = slosh.joint;
+        let swung = slosh.pendulum.is_some();
+        slosh.pendulum = slosh.pendulum.and(SloshPendulum::of(&slosh.slosh, slosh.tank.mass));
+        if swung && slosh.pendulum.is_none() {
+            let places = self.slosh_places(first);
+            for (at, joint) in places.into_iter().zip([first, first + 1]) {
+                self.drives[joint] = Drive::Follow(SetPointMotion::still(self.row[at]));
+            }
+            for at in &places[2..] {
+                (self.row[*at], self.carry[*at]) = (0.0, 0.0);
+            }
+        }
+        self.weigh();
+        let left = (p_cm * mass - p_N * dm) * (1.0 / self.mass);
+        self.set_momentum(left, linear - away, angular - p_N.cross(away));
+        let after = self.expand(&self.row, &self.quat_NB, t, &mut Configuration::new());
+        kinetic_energy(&kinematics(&self.robot, &after)) - before
+    }
+}
+
+impl<const J: usize> Scene<J> {
+    /// Before a step: no pendulum is where its coordinates end.
+    pub(crate) fn recentre_slosh(&mut self) {
+        self.systems.iter_mut().flatten().for_each(System::recentre_slosh);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TANK: Slosh = Slosh {
+        axis_B: Vec3 { x: 0.0, y: 0.0, z: 1.0 },
+        radius: 0.7,
+        density: 1010.0,
+        damping_ratio: 0.01,
+        acceleration: 0.3,
+        stiffness: 0.0,
+    };
+
+    /// `∫ f` from `a` to `b` by Simpson's rule.
+    fn integral(a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
+        let (n, h) = (2000, (b - a) / 2000.0);
+        let weight = |i: i32| if i == 0 || i == n { 1.0 } else { 2.0 + 2.0 * f64::from(i % 2) };
+        (0..=n).map(|i| weight(i) * f(a + f64::from(i) * h)).sum::<f64>() * h / 3.0
+    }
+
+    /// The first mode of the potential flow, `φ = J₁(κr) cos θ cosh κz`, z from the bottom: that its mass, length
+    /// and hinge are those of the pendulum. The mass is `P²/2T`, with P the momentum across the tank of the
+    /// mode and 2T twice its kinetic energy; the hinge is where the pressure on wall and bottom has no
+    /// moment; `ω² = g φ_z/φ` at the surface. All by quadrature: measured 1e-13.
+    #[test]
+    fn the_pendulum_is_the_first_mode_of_the_potential_flow() {
+        let (R, kappa) = (TANK.radius, FIRST_ZERO / TANK.radius);
+        let slope = libm::j0(FIRST_ZERO) - libm::j1(FIRST_ZERO) / FIRST_ZERO;
+        assert!(slope.abs() < 1e-15, "no flow through the wall: {slope:e}");
+        for h in [0.1, 0.4, 0.7, 1.5] {
+            let liquid = TANK.density * std::f64::consts::PI * R * R * h;
+            let p = SloshPendulum::of(&TANK, liquid).unwrap();
+            let (top, pi) = (libm::cosh(kappa * h), std::f64::consts::PI);
+            let wall = |f: &dyn Fn(f64) -> f64| {
+                libm::j1(FIRST_ZERO) * pi * R * integral(0.0, h, |z| f(z) * libm::cosh(kappa * z))
+            };
+            let push = wall(&|_| 1.0);
+            let square = |r: f64| libm::j1(kappa * r) * libm::j1(kappa * r) * r;
+            let twice = kappa * libm::sinh(kappa * h) * top * pi * integral(0.0, R, square);
+            let mass = TANK.density * push * push / twice;
+            let on_bottom = pi * integral(0.0, R, |r| r * r * libm::j1(kappa * r));
+            let hinge = (wall(&|z| z) + on_bottom) / push;
+            let length = top / (kappa * libm::sinh(kappa * h));
+            for (found, expected) in [(p.mass, mass), (p.hinge_height, hinge), (p.length, length)] {
+                assert!((found / expected - 1.0).abs() < 1e-11, "{h} m: {found} {expected}");
+            }
+        }
+    }
+
+    /// Both parts together have the mass of the liquid and its centre of mass in the middle of its depth,
+    /// hanging.
+    #[test]
+    fn what_swings_and_what_does_not_are_the_liquid() {
+        for liquid in [160.0, 500.0, 1500.0] {
+            let p = SloshPendulum::of(&TANK, liquid).unwrap();
+            let moment = p.mass * (p.hinge_height - p.length) + p.rest_mass * p.rest_height;
+            assert!((p.mass + p.rest_mass - liquid).abs() < 1e-12 * liquid);
+            assert!((moment / liquid / (0.5 * depth(&TANK, liquid)) - 1.0).abs() < 1e-14);
+            assert!(p.mass > 0.0 && p.rest_mass > 0.0);
+        }
+    }
+
+    /// `2 ζ ω m L²` at `ω² = a/L + k/(m L²)`.
+    #[test]
+    fn the_damping_ratio_is_that_of_the_swing_that_is_restored() {
+        let p = SloshPendulum::of(&TANK, 500.0).unwrap();
+        let inertia = p.mass * p.length * p.length;
+        let by_gravity = 2.0 * 0.01 * (0.3 / p.length).sqrt() * inertia;
+        assert!((p.damping / by_gravity - 1.0).abs() < 1e-14);
+        let sprung = Slosh { acceleration: 0.0, stiffness: 7.0, ..TANK };
+        let by_spring = 2.0 * 0.01 * (7.0 * inertia).sqrt();
+        let p = SloshPendulum::of(&sprung, 500.0).unwrap();
+        assert!((p.damping / by_spring - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_film_and_what_is_no_number_do_not_swing() {
+        let film = 0.99 * SHALLOW * TANK.radius * TANK.density * 0.49 * std::f64::consts::PI;
+        for liquid in [film, 0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(SloshPendulum::of(&TANK, liquid), None, "{liquid}");
+        }
+        assert!(SloshPendulum::of(&TANK, film * 1.02).is_some());
+    }
+
+    /// Coordinates that begin anew describe the same rod: where it is, and how fast its end moves.
+    /// Measured 2e-16.
+    #[test]
+    fn coordinates_that_begin_anew_are_of_the_same_rod() {
+        let tank = Tank { position_B: Vec3::zero(), propellant: 500.0 };
+        let mut slosh = SloshingTank::new(&tank, &TANK, 0).unwrap();
+        let seen = |slosh: &SloshingTank, q, v| {
+            let (rod, R) = (Rod::of(q, v), slosh.quat_BF.to_matrix());
+            (R * rod.along, R * rod.w.cross(rod.along))
+        };
+        let (q, v) = ([-0.4, 1.3], [0.7, -0.9]);
+        let before = seen(&slosh, q, v);
+        let fresh = slosh.recentre(q, v).unwrap();
+        let after = seen(&slosh, [0.0; 2], fresh);
+        assert!((before.0 - after.0).norm() < 1e-15 && (before.1 - after.1).norm() < 1e-15);
+        assert_eq!(slosh.recentre([3.0, 0.4], v), None, "the first joint may turn as it likes");
+    }
+
+    #[test]
+    fn the_axis_of_the_tank_is_z_of_the_hinge() {
+        for axis in [vec3(0.48, 0.6, 0.64), vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, -1.0)] {
+            let z = from_z_to(axis).to_matrix() * vec3(0.0, 0.0, 1.0);
+            assert!((z - axis).norm() < 1e-15, "{z:?}");
+        }
+    }
+}
