@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
 
 use wrasse_dynamics::{BodyId, Frame, MassProperties, PerBody, Robot, State, kinematics};
-use wrasse_hardware::{ActuatorCommand, Slosh, Tank};
+use wrasse_hardware::{ActuatorCommand, Slosh, Tank, TankShape};
 use wrasse_spatial::{Pose, SpatialForce, Sym3, Vec3, vec3};
 use wrasse_testing::{OneSystem, OneSystemSetup};
 use wrasse_world::{BaseAttitude, Equipment, SloshPendulum, Stepper};
@@ -13,7 +13,7 @@ const J: usize = 4;
 const UP: Vec3<f64> = Vec3 { x: 0.0, y: 0.0, z: 1.0 };
 const TANK: Slosh = Slosh {
     axis_B: UP,
-    radius: 0.4,
+    shape: TankShape::UprightCylinder { radius: 0.4, height: 0.6 },
     density: 1000.0,
     damping_ratio: 0.04,
     acceleration: 0.1,

@@ -1,10 +1,10 @@
 //! Liquid that swings in the tank: a pendulum on two joints behind those of the vehicle.
 //!
 //! Its dynamics are the tree's, so whatever the tree conserves it conserves. Here is what the tree does
-//! not know: how heavy and how long the pendulum is at a fill level, what damps and restores it, and what
-//! becomes of it as propellant leaves.
+//! not know: what damps and restores the pendulum, and what becomes of it as propellant leaves. How heavy
+//! and how long it is at a fill level is in `slosh_pendulum.rs`.
 
-use super::{Effector, Load, Stage, TankWithPropellant};
+use super::{Effector, Load, SloshPendulum, Stage, TankWithPropellant};
 use crate::scene::Scene;
 use crate::setup::Drive;
 use crate::source::Source;
@@ -16,75 +16,9 @@ use wrasse_dynamics::{
 use wrasse_hardware::{ActuatorReadings, SetPointMotion, Slosh, Tank};
 use wrasse_spatial::{Mat3, Pose, Quat, Sym3, Vec3, turned_by, vec3};
 
-/// First zero of `J₁'` (–): the wave number of the first mode across a tank, times its radius.
-const FIRST_ZERO: f64 = 1.841_183_781_340_659_4;
-/// Depth, as a share of the radius, below which the liquid is still: the pendulum of a film is endless.
-const SHALLOW: f64 = 0.1;
 /// Angle of the second joint beyond which its coordinates begin anew (rad): at a quarter turn the first
 /// joint's axis goes through the bob.
 const FAR: f64 = 0.5;
-
-/// The first mode of a liquid in an upright cylinder, as a pendulum beside a mass at rest.
-///
-/// With `κ = 1.8412/R`: frequency `ω² = g κ tanh κh`, length `L = g/ω²`, mass
-/// `m₁ = m 2 tanh κh / (κh (1.8412² - 1))`, at rest `h - (2/κ) tanh κh/2` above the bottom. What is left of the
-/// liquid is a point where both together have its centre of mass.
-///
-/// # Assumptions
-/// Small waves; the modes above the first and the liquid's own turning are part of the mass at rest,
-/// which is a point.
-///
-/// # Source
-/// Derived from the potential flow in `book/src/theory/slosh.md`;
-/// [`Abramson1966`](wrasse_spatial::references::Abramson1966) ch. 6 and
-/// [`Dodge2000`](wrasse_spatial::references::Dodge2000) ch. 3 have models of this form.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SloshPendulum {
-    /// What swings (kg).
-    pub mass: f64,
-    /// From the hinge to it (m).
-    pub length: f64,
-    /// Of the hinge above the bottom (m).
-    pub hinge_height: f64,
-    /// What does not swing (kg).
-    pub rest_mass: f64,
-    /// Of that above the bottom (m).
-    pub rest_height: f64,
-    /// Damping about the hinge (N·m·s/rad).
-    pub damping: f64,
-}
-
-impl SloshPendulum {
-    /// Of so much liquid (kg); `None` where it is too shallow to swing.
-    pub fn of(slosh: &Slosh, liquid: f64) -> Option<Self> {
-        let (R, h) = (slosh.radius, depth(slosh, liquid));
-        // What is not a number does not swing.
-        if !(h >= SHALLOW * R && h.is_finite()) {
-            return None;
-        }
-        let kappa = FIRST_ZERO / R;
-        let tanh = libm::tanh(kappa * h);
-        let share = 2.0 * tanh / (kappa * h * (FIRST_ZERO * FIRST_ZERO - 1.0));
-        let (mass, length) = (liquid * share, 1.0 / (kappa * tanh));
-        let height = h - 2.0 / kappa * libm::tanh(0.5 * kappa * h);
-        let rest_mass = liquid - mass;
-        let inertia = mass * length * length;
-        let square = slosh.acceleration / length + slosh.stiffness / inertia;
-        Some(Self {
-            mass,
-            length,
-            hinge_height: height + length,
-            rest_mass,
-            rest_height: (0.5 * h * liquid - height * mass) / rest_mass,
-            damping: 2.0 * slosh.damping_ratio * libm::sqrt(square) * inertia,
-        })
-    }
-}
-
-/// How deep so much liquid (kg) is (m).
-fn depth(slosh: &Slosh, liquid: f64) -> f64 {
-    liquid / (slosh.density * std::f64::consts::PI * slosh.radius * slosh.radius)
-}
 
 /// A tank in which the propellant swings.
 #[derive(Debug, Clone)]
@@ -109,7 +43,7 @@ impl SloshingTank {
     /// Hanging along its axis, by joints that have numbers from `joint` on; `None` if nothing swings.
     pub(crate) fn new(tank: &Tank<f64>, slosh: &Slosh, joint: usize) -> Option<Self> {
         let pendulum = SloshPendulum::of(slosh, tank.propellant)?;
-        let bottom_B = tank.position_B - slosh.axis_B * (0.5 * depth(slosh, tank.propellant));
+        let bottom_B = tank.position_B - slosh.axis_B * (slosh.centre_height(tank.propellant));
         Some(Self {
             tank: TankWithPropellant { position_B: bottom_B, mass: tank.propellant },
             slosh: *slosh,
@@ -233,10 +167,9 @@ impl<const J: usize> Effector<J> for SloshingTank {
     }
     /// What does not swing.
     fn mass_properties(&self) -> Option<MassProperties<f64>> {
-        let half = 0.5 * depth(&self.slosh, self.tank.mass);
         let (mass, height) = match &self.pendulum {
             Some(p) => (p.rest_mass, p.rest_height),
-            None => (self.tank.mass, half),
+            None => (self.tank.mass, self.slosh.centre_height(self.tank.mass)),
         };
         let p_B = self.tank.position_B + self.slosh.axis_B * height;
         Some(MassProperties::from_central(mass, p_B, Sym3::zero()))
@@ -323,86 +256,16 @@ impl<const J: usize> Scene<J> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use wrasse_hardware::TankShape;
 
     const TANK: Slosh = Slosh {
         axis_B: Vec3 { x: 0.0, y: 0.0, z: 1.0 },
-        radius: 0.7,
+        shape: TankShape::UprightCylinder { radius: 0.7, height: 2.0 },
         density: 1010.0,
         damping_ratio: 0.01,
         acceleration: 0.3,
         stiffness: 0.0,
     };
-
-    /// `∫ f` from `a` to `b` by Simpson's rule.
-    fn integral(a: f64, b: f64, f: impl Fn(f64) -> f64) -> f64 {
-        let (n, h) = (2000, (b - a) / 2000.0);
-        let weight = |i: i32| if i == 0 || i == n { 1.0 } else { 2.0 + 2.0 * f64::from(i % 2) };
-        (0..=n).map(|i| weight(i) * f(a + f64::from(i) * h)).sum::<f64>() * h / 3.0
-    }
-
-    /// The first mode of the potential flow, `φ = J₁(κr) cos θ cosh κz`, z from the bottom: that its mass, length
-    /// and hinge are those of the pendulum. The mass is `P²/2T`, with P the momentum across the tank of the
-    /// mode and 2T twice its kinetic energy; the hinge is where the pressure on wall and bottom has no
-    /// moment; `ω² = g φ_z/φ` at the surface. All by quadrature: measured 1e-13.
-    #[test]
-    fn the_pendulum_is_the_first_mode_of_the_potential_flow() {
-        let (R, kappa) = (TANK.radius, FIRST_ZERO / TANK.radius);
-        let slope = libm::j0(FIRST_ZERO) - libm::j1(FIRST_ZERO) / FIRST_ZERO;
-        assert!(slope.abs() < 1e-15, "no flow through the wall: {slope:e}");
-        for h in [0.1, 0.4, 0.7, 1.5] {
-            let liquid = TANK.density * std::f64::consts::PI * R * R * h;
-            let p = SloshPendulum::of(&TANK, liquid).unwrap();
-            let (top, pi) = (libm::cosh(kappa * h), std::f64::consts::PI);
-            let wall = |f: &dyn Fn(f64) -> f64| {
-                libm::j1(FIRST_ZERO) * pi * R * integral(0.0, h, |z| f(z) * libm::cosh(kappa * z))
-            };
-            let push = wall(&|_| 1.0);
-            let square = |r: f64| libm::j1(kappa * r) * libm::j1(kappa * r) * r;
-            let twice = kappa * libm::sinh(kappa * h) * top * pi * integral(0.0, R, square);
-            let mass = TANK.density * push * push / twice;
-            let on_bottom = pi * integral(0.0, R, |r| r * r * libm::j1(kappa * r));
-            let hinge = (wall(&|z| z) + on_bottom) / push;
-            let length = top / (kappa * libm::sinh(kappa * h));
-            for (found, expected) in [(p.mass, mass), (p.hinge_height, hinge), (p.length, length)] {
-                assert!((found / expected - 1.0).abs() < 1e-11, "{h} m: {found} {expected}");
-            }
-        }
-    }
-
-    /// Both parts together have the mass of the liquid and its centre of mass in the middle of its depth,
-    /// hanging.
-    #[test]
-    fn what_swings_and_what_does_not_are_the_liquid() {
-        for liquid in [160.0, 500.0, 1500.0] {
-            let p = SloshPendulum::of(&TANK, liquid).unwrap();
-            let moment = p.mass * (p.hinge_height - p.length) + p.rest_mass * p.rest_height;
-            assert!((p.mass + p.rest_mass - liquid).abs() < 1e-12 * liquid);
-            assert!((moment / liquid / (0.5 * depth(&TANK, liquid)) - 1.0).abs() < 1e-14);
-            assert!(p.mass > 0.0 && p.rest_mass > 0.0);
-        }
-    }
-
-    /// `2 ζ ω m L²` at `ω² = a/L + k/(m L²)`.
-    #[test]
-    fn the_damping_ratio_is_that_of_the_swing_that_is_restored() {
-        let p = SloshPendulum::of(&TANK, 500.0).unwrap();
-        let inertia = p.mass * p.length * p.length;
-        let by_gravity = 2.0 * 0.01 * (0.3 / p.length).sqrt() * inertia;
-        assert!((p.damping / by_gravity - 1.0).abs() < 1e-14);
-        let sprung = Slosh { acceleration: 0.0, stiffness: 7.0, ..TANK };
-        let by_spring = 2.0 * 0.01 * (7.0 * inertia).sqrt();
-        let p = SloshPendulum::of(&sprung, 500.0).unwrap();
-        assert!((p.damping / by_spring - 1.0).abs() < 1e-14);
-    }
-
-    #[test]
-    fn a_film_and_what_is_no_number_do_not_swing() {
-        let film = 0.99 * SHALLOW * TANK.radius * TANK.density * 0.49 * std::f64::consts::PI;
-        for liquid in [film, 0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert_eq!(SloshPendulum::of(&TANK, liquid), None, "{liquid}");
-        }
-        assert!(SloshPendulum::of(&TANK, film * 1.02).is_some());
-    }
 
     /// Coordinates that begin anew describe the same rod: where it is, and how fast its end moves.
     /// Measured 2e-16.

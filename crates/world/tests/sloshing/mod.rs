@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "each test binary uses its part")]
 
 use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, MassProperties, Robot, State};
-use wrasse_hardware::{Slosh, Tank};
+use wrasse_hardware::{Slosh, Tank, TankShape};
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Sym3, Vec3, vec3};
 use wrasse_testing::{OneSystem, OneSystemSetup};
 use wrasse_world::{BaseAttitude, Equipment, SloshPendulum, Stepper};
@@ -22,7 +22,7 @@ pub(crate) const SHALLOW: f64 = 1000.0 * std::f64::consts::PI * 0.3 * 0.3 * 0.03
 pub(crate) fn slosh() -> Slosh {
     Slosh {
         axis_B: AXIS,
-        radius: 0.3,
+        shape: TankShape::UprightCylinder { radius: 0.3, height: 0.5 },
         density: 1000.0,
         damping_ratio: 0.03,
         acceleration: 0.02,
