@@ -73,7 +73,10 @@ impl SloshingTank {
         let bob = MassProperties::from_central(mass, vec3(0.0, 0.0, -length), Sym3::zero());
         let on = BodyId::Link(self.joint);
         [
-            (joint(BodyId::Base, Pose::from_quat(self.quat_BF, hinge_B), x), Default::default()),
+            (
+                joint(BodyId::Base, Pose::from_quat(self.quat_BF, hinge_B), x),
+                MassProperties::default(),
+            ),
             (joint(on, Pose::identity(), y), bob),
         ]
     }
@@ -234,9 +237,6 @@ impl<const J: usize> System<J> {
             for (at, joint) in places.into_iter().zip([first, first + 1]) {
                 self.drives[joint] = Drive::Follow(SetPointMotion::still(self.row[at]));
             }
-            for at in &places[2..] {
-                (self.row[*at], self.carry[*at]) = (0.0, 0.0);
-            }
         }
         self.weigh();
         let left = (p_cm * mass - p_N * dm) * (1.0 / self.mass);
@@ -283,6 +283,21 @@ mod tests {
         let after = seen(&slosh, [0.0; 2], fresh);
         assert!((before.0 - after.0).norm() < 1e-15 && (before.1 - after.1).norm() < 1e-15);
         assert_eq!(slosh.recentre([3.0, 0.4], v), None, "the first joint may turn as it likes");
+    }
+
+    /// A film lies on the bottom, half its depth up; what is left of a pendulum hangs where it was.
+    #[test]
+    fn a_film_lies_on_the_bottom() {
+        let tank = Tank { position_B: vec3(0.1, 0.2, 0.3), propellant: 500.0 };
+        let axis = vec3(0.48, 0.6, 0.64);
+        let mut film = SloshingTank::new(&tank, &Slosh { axis_B: axis, ..TANK }, 0).unwrap();
+        let depth = 500.0 / (1010.0 * std::f64::consts::PI * 0.49);
+        let bottom = tank.position_B - axis * (0.5 * depth);
+        (film.pendulum, film.tank.mass) = (None, 50.0);
+        let matter = Effector::<2>::mass_properties(&film).unwrap().M_F_F;
+        assert_eq!(matter.mass, 50.0);
+        let off = matter.centre_of_mass() - (bottom + axis * (0.05 * depth));
+        assert!(off.norm() < 1e-15, "{off:?}");
     }
 
     #[test]
