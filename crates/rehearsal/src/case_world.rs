@@ -203,7 +203,7 @@ fn equipment(case: &Case) -> Equipment {
         actuators: case.equipment.actuators,
         wheel_speed: case.equipment.wheel_speed,
         gimbal_angle: case.equipment.gimbal_angle,
-        slosh: None,
+        slosh: case.equipment.slosh,
         seed: case.seed,
     }
 }
