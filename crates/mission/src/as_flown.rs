@@ -6,7 +6,7 @@ use wrasse_document::{Document, Step};
 use wrasse_rehearsal::AttitudeActuation;
 use wrasse_rehearsal::figures::rounded;
 use wrasse_rehearsal::{Case, Setting};
-use wrasse_world::{BaseAttitude, Stepper};
+use wrasse_world::{BaseAttitude, Environment, Stepper};
 
 /// What was flown, in the order of the format; settings that nothing reads are left out.
 pub(crate) fn as_flown(document: &Document, file: &MissionFile, case: &Case) -> Vec<Setting> {
@@ -92,6 +92,9 @@ fn decided(case: &Case, key: &str) -> Option<String> {
             Stepper::Fixed { step } => rounded(step.min(case.period())).to_string(),
             Stepper::Adaptive { .. } => return None,
         },
+        "world.gravity_m_s2" if case.environment == Environment::FreeSpace => {
+            "none: free space".into()
+        }
         "control.actuators" => match (case.base, case.actuation) {
             (BaseAttitude::Free, _) => "none: the base floats".into(),
             (BaseAttitude::Held, _) => "none: the base is held from outside".into(),

@@ -28,11 +28,12 @@ impl Sensing {
 
     /// What the sensors say now.
     pub(crate) fn read(&mut self, case: &Case, world: &CaseWorld) -> Sensed<f64, JOINTS> {
-        let (state, period) = (world.state(), case.period());
+        let (state, period) = (world.rigid_state(), case.period());
         self.sensed_at = world.quat_NB();
         let mut perfect = Sensed::perfect(&state, world.actuator_readings());
         if case.measures_wrench {
-            let k = kinematics(world.robot(), &state);
+            let truth = world.state();
+            let k = kinematics(world.robot(), &truth);
             let tool = &case.setup.assignment.tool;
             perfect.tool_wrench_E = Some(felt(&case.wrenches, tool, world.time(), &k));
         }

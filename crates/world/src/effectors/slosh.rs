@@ -5,7 +5,7 @@
 //! and how long it is at a fill level is in `slosh_pendulum.rs`.
 
 use super::{Effector, Load, SloshPendulum, Stage, TankWithPropellant};
-use crate::scene::Scene;
+use crate::scene::{Scene, SystemId};
 use crate::setup::Drive;
 use crate::source::Source;
 use crate::system::System;
@@ -247,6 +247,16 @@ impl<const J: usize> System<J> {
 }
 
 impl<const J: usize> Scene<J> {
+    /// Angle of the pendulum by which propellant swings from the axis of its tank (rad), up to half a turn;
+    /// `None` where nothing swings.
+    pub fn slosh_angle(&self, id: SystemId) -> Option<f64> {
+        let system = self.system(id);
+        let slosh = system.slosh().filter(|slosh| slosh.pendulum.is_some())?;
+        let [q1, q2, v1, v2] = system.slosh_places(slosh.joint).map(|at| system.row[at]);
+        let along_B = slosh.quat_BF.to_matrix() * Rod::of([q1, q2], [v1, v2]).along;
+        let down_B = -slosh.slosh.axis_B;
+        Some(libm::atan2(along_B.cross(down_B).norm(), along_B.dot(down_B)))
+    }
     /// Before a step: no pendulum is where its coordinates end.
     pub(crate) fn recentre_slosh(&mut self) {
         self.systems.iter_mut().flatten().for_each(System::recentre_slosh);

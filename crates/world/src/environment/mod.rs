@@ -24,6 +24,13 @@ impl Environment {
     pub(crate) fn acts(&self) -> bool {
         *self != Self::FreeSpace
     }
+    /// Acceleration of what falls freely, inertial axes (m/s²); `None` in free space.
+    pub fn gravity_N(&self) -> Option<Vec3<f64>> {
+        match *self {
+            Self::FreeSpace => None,
+            Self::UniformGravity { acceleration_N } => Some(acceleration_N),
+        }
+    }
     /// What it does to the bodies of a system.
     pub(crate) fn act<const J: usize>(&self, k: &Kinematics<'_, f64, J>, load: &mut Load<'_, J>) {
         match self {
