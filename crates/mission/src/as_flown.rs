@@ -6,7 +6,7 @@ use wrasse_document::{Document, Step};
 use wrasse_rehearsal::AttitudeActuation;
 use wrasse_rehearsal::figures::rounded;
 use wrasse_rehearsal::{Case, Setting};
-use wrasse_world::{BaseAttitude, Environment, Stepper};
+use wrasse_world::{BaseAttitude, Environment, SloshPendulum, Stepper};
 
 /// What was flown, in the order of the format; settings that nothing reads are left out.
 pub(crate) fn as_flown(document: &Document, file: &MissionFile, case: &Case) -> Vec<Setting> {
@@ -24,6 +24,7 @@ pub(crate) fn as_flown(document: &Document, file: &MissionFile, case: &Case) -> 
             setting.value = value;
         }
     }
+    settings.extend(slosh_setting(case));
     settings.extend(grasp_settings(case));
     settings
 }
@@ -114,6 +115,21 @@ fn decided(case: &Case, key: &str) -> Option<String> {
         }
         _ => return None,
     })
+}
+
+/// The pendulum by which the propellant swings at the start.
+fn slosh_setting(case: &Case) -> Option<Setting> {
+    let (slosh, tank) = (case.equipment.slosh?, case.equipment.actuators.tank?);
+    let value = match SloshPendulum::of(&slosh, tank.propellant) {
+        Some(pendulum) => format!(
+            "{} of {} kg on {} m",
+            rounded(pendulum.mass),
+            rounded(tank.propellant),
+            rounded(pendulum.length)
+        ),
+        None => "none: it does not swing".into(),
+    };
+    Some(Setting { key: "actuators.tank.slosh".into(), value, origin: "tank and fill level" })
 }
 
 /// The bounds of each grasp.

@@ -41,6 +41,8 @@ fn a_burn_sets_propellant_swinging_and_the_damper_brings_it_to_rest() {
     let given = flown.ledger.sources[Source::Slosh];
     assert!(given.work < -1e-3, "{} J", given.work);
     assert_eq!((given.angular.norm(), given.linear.norm()), (0.0, 0.0));
+    let swings = flown.as_flown.iter().find(|s| s.key == "actuators.tank.slosh");
+    assert_eq!(swings.map(|s| s.value.as_str()), Some("112.9 of 200 kg on 0.2832 m"));
     // The pendulum is not drawn as an arm.
     assert!(!flown.snapshots.is_empty() && flown.snapshots.iter().all(|s| s.arms.len() == 1));
     let swung = metric(&flown, "slosh.angle.max").to_degrees();

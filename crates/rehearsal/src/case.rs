@@ -86,7 +86,7 @@ pub struct Setting {
     pub key: String,
     /// Its value, in the unit of the key.
     pub value: String,
-    /// Whence: `mission file`, `default`, or `tool and phase`.
+    /// Whence: `mission file`, `default`, `tank and fill level` or `tool and phase`.
     pub origin: &'static str,
 }
 
