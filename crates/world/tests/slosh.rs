@@ -79,6 +79,8 @@ fn a_tank_swings_as_the_same_pendulum_on_joints_of_a_tree_built_by_hand() {
         });
         let along = (bob_N(&tank, 0, &p) - hinge.translation) * (1.0 / p.length);
         let angle = libm::acos(-along.dot(a.X_NB.rotation * AXIS));
+        let seen = tank.slosh_angle(tank.id).unwrap();
+        assert!((libm::cos(seen) - libm::cos(angle)).abs() < 1e-12, "{seen} rad, {angle} rad");
         farthest = farthest.max(angle);
         anew |= angle > 1.2 && a.q[1].abs() < 0.6;
     }

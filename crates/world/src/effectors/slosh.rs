@@ -43,7 +43,7 @@ impl SloshingTank {
     /// Hanging along its axis, by joints that have numbers from `joint` on; `None` if nothing swings.
     pub(crate) fn new(tank: &Tank<f64>, slosh: &Slosh, joint: usize) -> Option<Self> {
         let pendulum = SloshPendulum::of(slosh, tank.propellant)?;
-        let bottom_B = tank.position_B - slosh.axis_B * (slosh.centre_height(tank.propellant));
+        let bottom_B = tank.position_B - slosh.axis_B * slosh.centre_height(tank.propellant);
         Some(Self {
             tank: TankWithPropellant { position_B: bottom_B, mass: tank.propellant },
             slosh: *slosh,
