@@ -9,6 +9,7 @@ mod cmg;
 mod list;
 mod sensor;
 mod set_point;
+mod slosh;
 mod thruster;
 mod wheel;
 
@@ -18,6 +19,7 @@ pub use cmg::{CMGS, ControlMomentGyro};
 pub use list::List;
 pub use sensor::{RateGyro, Sensors, StarTracker, TrackerReading};
 pub use set_point::{SetPoint, SetPointMotion};
+pub use slosh::{Slosh, TankShape};
 pub use thruster::{STANDARD_GRAVITY, THRUSTERS, Tank, Thruster};
 pub use wheel::{ReactionWheel, WHEELS};
 

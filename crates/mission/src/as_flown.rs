@@ -7,7 +7,7 @@ use wrasse_flight::{ArmLaw, Task};
 use wrasse_rehearsal::AttitudeActuation;
 use wrasse_rehearsal::figures::rounded;
 use wrasse_rehearsal::{Case, Setting};
-use wrasse_world::{BaseAttitude, Stepper};
+use wrasse_world::{BaseAttitude, Environment, SloshPendulum, Stepper};
 
 /// What was flown, in the order of the format; settings that nothing reads are left out.
 pub(crate) fn as_flown(document: &Document, file: &MissionFile, case: &Case) -> Vec<Setting> {
@@ -25,6 +25,7 @@ pub(crate) fn as_flown(document: &Document, file: &MissionFile, case: &Case) -> 
             setting.value = value;
         }
     }
+    settings.extend(slosh_setting(case));
     settings.extend(arm_settings(case));
     settings.extend(grasp_settings(case));
     settings
@@ -94,6 +95,9 @@ fn decided(case: &Case, key: &str) -> Option<String> {
             Stepper::Fixed { step } => rounded(step.min(case.period())).to_string(),
             Stepper::Adaptive { .. } => return None,
         },
+        "world.gravity_m_s2" if case.environment == Environment::FreeSpace => {
+            "none: free space".into()
+        }
         "control.actuators" => match (case.base, case.actuation) {
             (BaseAttitude::Free, _) => "none: the base floats".into(),
             (BaseAttitude::Held, _) => "none: the base is held from outside".into(),
@@ -141,6 +145,21 @@ fn arm_settings(case: &Case) -> Vec<Setting> {
         }
     }
     settings
+}
+
+/// The pendulum by which the propellant swings at the start.
+fn slosh_setting(case: &Case) -> Option<Setting> {
+    let (slosh, tank) = (case.equipment.slosh?, case.equipment.actuators.tank?);
+    let value = match SloshPendulum::of(&slosh, tank.propellant) {
+        Some(pendulum) => format!(
+            "{} of {} kg on {} m",
+            rounded(pendulum.mass),
+            rounded(tank.propellant),
+            rounded(pendulum.length)
+        ),
+        None => "none: it does not swing".into(),
+    };
+    Some(Setting { key: "actuators.tank.slosh".into(), value, origin: "tank and fill level" })
 }
 
 /// The bounds of each grasp.

@@ -21,7 +21,7 @@ use crate::toml::payload::payloads;
 use crate::toml::phase::phases;
 use crate::toml::requirement::requirements;
 use crate::toml::sensors::sensors;
-use crate::toml::world::{base_attitude, stepper, torque_joints};
+use crate::toml::world::{base_attitude, environment, stepper, torque_joints};
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -115,6 +115,7 @@ fn read_case(
     let (failures, wrenches) = (failures(r, &file, &equipment), applied_wrenches(r, &file));
     let payloads = payloads(r, &file, &start);
     let base = base_attitude(r, &file, &start);
+    let environment = environment(r, &file);
     let phases = phases(r, &file, &payloads);
     let (quantities, requirements) = requirements(r, &file);
     let torque = torque_joints(r, &file);
@@ -140,6 +141,7 @@ fn read_case(
         sensors,
         measures_wrench: file.control.measure_tool_wrench,
         failures,
+        environment,
         wrenches,
         seed: file.seed,
         stepper,

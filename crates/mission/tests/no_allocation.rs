@@ -67,3 +67,23 @@ fn a_longer_flight_by_thrusters_allocates_no_more() {
 fn a_longer_flight_by_noisy_sensors_allocates_no_more() {
     assert_length_costs_nothing("base-control/noisy-tracker.toml", SETTLE, LONGER);
 }
+
+/// The burn of the shipped mission is flown, too.
+#[test]
+fn a_longer_flight_with_propellant_that_swings_allocates_no_more() {
+    let longer = ["hold = { duration_s = 1.0", "hold = { duration_s = 3.0"];
+    assert_length_costs_nothing("slosh.toml", "hold = { duration_s = 98.0", longer);
+}
+
+/// Thrusters draw on a tank that swings: the pendulum is made anew with every period in which they fire.
+#[test]
+fn a_longer_flight_on_propellant_that_swings_allocates_no_more() {
+    let slosh = "position_m = [-0.5, 0.0, 0.0]\nslosh = { sphere = { radius_m = 0.3 }, axis = [1, 0, 0], \
+                 density_kg_m3 = 1004.0, damping_ratio = 0.05, stiffness_nm_rad = 0.2 }";
+    let [few, many] = ["hold = { duration_s = 8.0", "hold = { duration_s = 12.0"].map(|phase| {
+        let changes =
+            [("position_m = [-0.5, 0.0, 0.0]", slosh), ("hold = { duration_s = 50.0", phase)];
+        calls("base-control/thrusters.toml", &changes)
+    });
+    assert_eq!(few, many);
+}

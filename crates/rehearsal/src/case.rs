@@ -13,7 +13,7 @@ use wrasse_flight::{Phase, Setup, Step};
 use wrasse_hardware::{AttitudeActuator, Sensors};
 use wrasse_spatial::{Pose, SpatialVelocity};
 use wrasse_vehicle::{Equipment, JOINTS, Vehicle, VehicleRobot};
-use wrasse_world::{BaseAttitude, Failure, FreeBody, GripOffset, Stepper};
+use wrasse_world::{BaseAttitude, Environment, Failure, FreeBody, GripOffset, Stepper};
 
 /// One thing to run.
 #[derive(Debug, Clone)]
@@ -40,6 +40,8 @@ pub struct Case {
     pub measures_wrench: bool,
     /// Units that fail on the way.
     pub failures: Vec<FailureCase>,
+    /// What surrounds the vehicle.
+    pub environment: Environment,
     /// What pushes from outside.
     pub wrenches: Vec<AppliedWrench>,
     /// Seed of everything random.
@@ -84,7 +86,7 @@ pub struct Setting {
     pub key: String,
     /// Its value, in the unit of the key.
     pub value: String,
-    /// Whence: `mission file`, `default`, or `tool and phase`.
+    /// Whence: `mission file`, `default`, `tank and fill level` or `tool and phase`.
     pub origin: &'static str,
 }
 

@@ -64,6 +64,18 @@ impl CaseWorld {
     pub(crate) fn robot(&self) -> &VehicleRobot {
         self.scene.robot(self.servicer)
     }
+    /// The same as if its propellant did not swing: what a flight computer is told that it is.
+    pub(crate) fn rigid_robot(&self) -> &VehicleRobot {
+        self.scene.rigid_robot(self.servicer)
+    }
+    /// Its state without the swing: what sensors can know of it.
+    pub(crate) fn rigid_state(&self) -> State<f64, JOINTS> {
+        self.scene.rigid_state(self.servicer)
+    }
+    /// Angle of the propellant's swing from the axis of its tank (rad); `None` where none swings.
+    pub(crate) fn slosh_angle(&self) -> Option<f64> {
+        self.scene.slosh_angle(self.servicer)
+    }
     /// Where the servicer is and how it moves.
     pub(crate) fn state(&self) -> State<f64, JOINTS> {
         self.scene.state(self.servicer)
@@ -162,6 +174,7 @@ impl CaseWorld {
 fn scene_of(case: &Case, stepper: Stepper) -> (Scene<JOINTS>, SystemId) {
     let held = case.held_at_start();
     let mut scene = Scene::new(stepper);
+    scene.set_environment(case.environment);
     let servicer = scene.add(&SystemSetup {
         robot: &case.vehicle.robot,
         limits: &case.vehicle.limits,
@@ -203,6 +216,7 @@ fn equipment(case: &Case) -> Equipment {
         actuators: case.equipment.actuators,
         wheel_speed: case.equipment.wheel_speed,
         gimbal_angle: case.equipment.gimbal_angle,
+        slosh: case.equipment.slosh,
         seed: case.seed,
     }
 }

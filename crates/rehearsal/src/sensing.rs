@@ -33,11 +33,12 @@ impl Sensing {
         world: &CaseWorld,
         tool: &Frame<f64>,
     ) -> Sensed<f64, JOINTS> {
-        let (state, period) = (world.state(), case.period());
+        let (state, period) = (world.rigid_state(), case.period());
         self.sensed_at = world.quat_NB();
         let mut perfect = Sensed::perfect(&state, world.actuator_readings());
         if case.measures_wrench {
-            let k = kinematics(world.robot(), &state);
+            let truth = world.state();
+            let k = kinematics(world.robot(), &truth);
             perfect.tool_wrench_E = Some(felt(&case.wrenches, tool, world.time(), &k));
         }
         let Some((sensors, suite)) = &mut self.suite else { return perfect };

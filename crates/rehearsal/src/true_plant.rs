@@ -101,7 +101,7 @@ impl<'a> TruePlant<'a> {
     /// The vehicle with what it holds and its propellant, as the flight computer believes it to be: the
     /// true one unless masses are otherwise than it knows.
     pub(crate) fn believed_robot(&self) -> VehicleRobot {
-        let Some(alone) = self.believed_alone else { return *self.world.robot() };
+        let Some(alone) = self.believed_alone else { return *self.world.rigid_robot() };
         let fed = match self.case.equipment.actuators.tank {
             Some(tank) => {
                 let left = self.world.actuator_readings().propellant;

@@ -118,3 +118,10 @@ pub enum Singh2022 {}
 /// G. Golub, C. Van Loan, *Matrix Computations*, 4th ed., Johns Hopkins, 2013.
 #[derive(Debug)]
 pub enum GolubVanLoan2013 {}
+/// H. N. Abramson (ed.), *The dynamic behavior of liquids in moving containers*, NASA SP-106, 1966.
+#[derive(Debug)]
+pub enum Abramson1966 {}
+/// F. T. Dodge, *The new "Dynamic behavior of liquids in moving containers"*, Southwest Research
+/// Institute, 2000.
+#[derive(Debug)]
+pub enum Dodge2000 {}

@@ -1,7 +1,7 @@
 //! What is bolted on a base, read and checked, with the names of its units.
 
 use crate::provenance::Provenance;
-use wrasse_hardware::{Actuators, CMGS, WHEELS};
+use wrasse_hardware::{Actuators, CMGS, Slosh, WHEELS};
 
 /// Wheels, CMGs and thrusters, as the file describes them.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -20,6 +20,8 @@ pub struct Equipment {
     pub wheel_speed: [f64; WHEELS],
     /// Angle of each gimbal at the start (rad).
     pub gimbal_angle: [f64; CMGS],
+    /// How the propellant swings in the tank; `None`: it does not.
+    pub slosh: Option<Slosh>,
     /// Mass of all units (kg), without propellant; `None` unless each says its own.
     pub mass: Option<f64>,
     /// Power of all units (W); `None` unless each says its own.

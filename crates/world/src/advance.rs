@@ -70,6 +70,7 @@ impl<const J: usize> Scene<J> {
             let mut done = 0.0;
             while done < count {
                 let t0 = into_period + (from + done * h);
+                self.recentre_slosh();
                 if self.has_events() {
                     self.note_before_step(t0);
                 }
@@ -109,6 +110,7 @@ impl<const J: usize> Scene<J> {
         let (mut t0, end) = (into_period + from, into_period + to);
         let mut h = self.last_step.min(to - from);
         while t0 < end {
+            self.recentre_slosh();
             let rest = end - t0;
             let last = h >= rest * (1.0 - 1e-12);
             let trial = if last { rest } else { h };

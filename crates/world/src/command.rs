@@ -75,7 +75,8 @@ impl<const J: usize> Scene<J> {
 
 impl<const J: usize> System<J> {
     fn command_joints(&mut self, drives: &[Drive], cut: &mut Vec<Saturation>) {
-        for (j, drive) in drives.iter().enumerate().take(J) {
+        // Nothing drives the propellant.
+        for (j, drive) in drives.iter().enumerate().take(self.dry.joint_count()) {
             self.drives[j] = match (*drive, self.limits[j].effort) {
                 (Drive::Effort(tau), Some(limit)) if tau.abs() > limit => {
                     cut.push(Saturation::JointEffort(j));

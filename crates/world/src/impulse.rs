@@ -116,12 +116,17 @@ impl<const J: usize> Scene<J> {
         let p_N = state.X_NB.point(position_B);
         let v_N = state.X_NB.rotation * state.V_NB_B.shifted_by(position_B).linear;
         let away = v_N * dm;
-        system.weigh();
-        let p_cm = kinematics(&system.robot, &state).centre_of_mass().1;
-        let (_, linear, angular) = system.momentum();
-        system.set_momentum(p_cm, linear - away, angular - p_N.cross(away));
+        let work = if system.slosh.is_some() {
+            system.settle_slosh(&state, (p_N, away, dm), t)
+        } else {
+            system.weigh();
+            let p_cm = kinematics(&system.robot, &state).centre_of_mass().1;
+            let (_, linear, angular) = system.momentum();
+            system.set_momentum(p_cm, linear - away, angular - p_N.cross(away));
+            -0.5 * dm * v_N.dot(v_N)
+        };
         let lost = SpatialForce::new(-p_N.cross(away), -away);
-        self.book(Source::Propellant, &Booking::of_wrench(&lost, -0.5 * dm * v_N.dot(v_N)));
+        self.book(Source::Propellant, &Booking::of_wrench(&lost, work));
         self.propellant += dm;
     }
 

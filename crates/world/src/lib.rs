@@ -9,6 +9,7 @@ mod advance;
 mod command;
 mod couplings;
 mod effectors;
+mod environment;
 mod events;
 mod failure;
 mod free_body;
@@ -29,10 +30,11 @@ pub use advance::NonFinite;
 pub use command::Saturation;
 pub use couplings::{Bushing, Coupling, FrameMotion};
 pub use effectors::{
-    AppliedWrench, Course, Effector, GimbalMotors, Instant, Load, PeriodCommand, Stage,
-    TankWithPropellant,
+    AppliedWrench, Course, Effector, GimbalMotors, Instant, Load, PeriodCommand, SloshPendulum,
+    SloshingTank, Stage, TankWithPropellant,
 };
 pub use effectors::{FlexibleJoint, FlexibleJoints, JointSpring, PassiveJoints};
+pub use environment::Environment;
 pub use events::{Crossing, Event, EventValue, Happening};
 pub use failure::Failure;
 pub use free_body::FreeBody;

@@ -1,7 +1,8 @@
-//! The scene: systems in free space, what couples them, and their motion through time.
+//! The scene: systems, what couples and what surrounds them, and their motion through time.
 
 use crate::couplings::{Coupled, Coupling};
 use crate::effectors::{AppliedWrench, Effector, GimbalMotors};
+use crate::environment::Environment;
 use crate::events::Watched;
 use crate::free_body::FreeBody;
 use crate::integrate::{DormandPrince, RungeKutta4, Stepper};
@@ -43,11 +44,12 @@ pub(crate) struct Clock {
     pub(crate) within: f64,
 }
 
-/// Systems, what couples them, and the way through time. No system is privileged: a servicer, its
+/// Systems, what couples them, what surrounds them, and the way through time. No system is privileged: a servicer, its
 /// client and a rigid body that floats by itself are systems alike, and all are integrated together.
 pub struct Scene<const J: usize> {
     pub(crate) systems: Vec<Option<System<J>>>,
     pub(crate) couplings: Vec<Option<Coupled>>,
+    pub(crate) environment: Environment,
     pub(crate) clock: Clock,
     pub(crate) stepper: Stepper,
     /// Last accepted step of the adaptive stepper (s).
@@ -75,11 +77,12 @@ impl<const J: usize> fmt::Debug for Scene<J> {
 }
 
 impl<const J: usize> Scene<J> {
-    /// An empty scene at time zero.
+    /// An empty scene in free space at time zero.
     pub fn new(stepper: Stepper) -> Self {
         Self {
             systems: vec![],
             couplings: vec![],
+            environment: Environment::FreeSpace,
             clock: Clock::default(),
             stepper,
             last_step: 0.01,
@@ -93,6 +96,9 @@ impl<const J: usize> Scene<J> {
         }
     }
     /// Add a system.
+    ///
+    /// # Panics
+    /// If its propellant swings and the robot has no room for two joints more.
     pub fn add(&mut self, setup: &SystemSetup<'_, J>) -> SystemId {
         self.put(System::new(setup))
     }
@@ -129,6 +135,10 @@ impl<const J: usize> Scene<J> {
         if let Some(coupled) = self.couplings.get_mut(id.0) {
             *coupled = None;
         }
+    }
+    /// What surrounds the systems from now on.
+    pub fn set_environment(&mut self, environment: Environment) {
+        self.environment = environment;
     }
     /// Let an effector act on a system from now on.
     ///
@@ -192,7 +202,8 @@ impl<const J: usize> Scene<J> {
 /// What is seen of a system. All of these panic if the system is part of another now.
 impl<const J: usize> Scene<J> {
     /// The robot with its propellant and what it holds. Where it has wheels, their inertia about their
-    /// axes is not in its base: they turn by themselves.
+    /// axes is not in its base: they turn by themselves. Propellant that swings has two joints behind
+    /// the robot's own.
     pub fn robot(&self, id: SystemId) -> &Robot<f64, J> {
         &self.system(id).robot
     }
@@ -204,6 +215,22 @@ impl<const J: usize> Scene<J> {
         let t = self.clock.into_period;
         let state = system.expand(&system.row, &system.quat_NB, t, configuration);
         self.places.set(Some(places));
+        state
+    }
+    /// The robot as if its propellant did not swing: what a flight computer takes it for that knows how
+    /// much there is. It is the [`robot`](Self::robot) where none swings.
+    pub fn rigid_robot(&self, id: SystemId) -> &Robot<f64, J> {
+        let system = self.system(id);
+        system.rigid.as_deref().unwrap_or(&system.robot)
+    }
+    /// The state without the joints by which propellant swings: that of the
+    /// [`rigid_robot`](Self::rigid_robot).
+    pub fn rigid_state(&self, id: SystemId) -> State<f64, J> {
+        let (mut state, own) = (self.state(id), self.system(id).dry.joint_count());
+        if self.system(id).slosh.is_some() {
+            state.q[own..].fill(0.0);
+            state.v[own..].fill(0.0);
+        }
         state
     }
     /// Attitude of the base, `quat_NB`.

@@ -1,7 +1,9 @@
 //! What a system is made of.
 
 use wrasse_dynamics::{BaseMode, Frame, MassProperties, Robot, State};
-use wrasse_hardware::{Actuators, AttitudeActuator, CMGS, JointLimits, SetPointMotion, WHEELS};
+use wrasse_hardware::{
+    Actuators, AttitudeActuator, CMGS, JointLimits, SetPointMotion, Slosh, WHEELS,
+};
 
 /// What becomes of the base's attitude.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,6 +45,8 @@ pub struct Equipment {
     pub wheel_speed: [f64; WHEELS],
     /// Angle of each gimbal (rad); its rate is zero.
     pub gimbal_angle: [f64; CMGS],
+    /// How the propellant swings in the tank, if there is one; `None`: it does not.
+    pub slosh: Option<Slosh>,
     /// Seed of the thrusters' noise.
     pub seed: u64,
 }

@@ -20,8 +20,12 @@ pub enum Source {
     Thrusters,
     /// Propellant: what it took along as it left the tank, negative.
     Propellant,
+    /// The liquid that swings in a tank: what damps and restores its swing, work alone.
+    Slosh,
     /// Wrenches that are applied from outside.
     Applied,
+    /// Gravity.
+    Gravity,
     /// Couplings between systems: work alone, for a wrench and its opposite cancel.
     Couplings,
     /// Grasps and releases: energy alone, for the momentum of both sides continues.
@@ -30,7 +34,7 @@ pub enum Source {
 
 impl Source {
     /// How many there are.
-    pub const COUNT: usize = 10;
+    pub const COUNT: usize = 12;
     /// All of them, in the order in which they are shown.
     pub const ALL: [Self; Self::COUNT] = [
         Self::JointDrives,
@@ -40,7 +44,9 @@ impl Source {
         Self::Cmgs,
         Self::Thrusters,
         Self::Propellant,
+        Self::Slosh,
         Self::Applied,
+        Self::Gravity,
         Self::Couplings,
         Self::Grasps,
     ];
@@ -54,7 +60,9 @@ impl Source {
             Self::Cmgs => "CMGs",
             Self::Thrusters => "thrusters",
             Self::Propellant => "propellant",
+            Self::Slosh => "slosh",
             Self::Applied => "applied wrenches",
+            Self::Gravity => "gravity",
             Self::Couplings => "couplings",
             Self::Grasps => "grasps",
         }

@@ -2,6 +2,7 @@
 
 use crate::couplings::{Coupled, FrameMotion};
 use crate::effectors::{Load, Stage};
+use crate::environment::Environment;
 use crate::scene::{Clock, Scene, SystemId};
 use crate::setup::{BaseAttitude, Drive};
 use crate::source::{Booking, Bookings, Source};
@@ -103,7 +104,8 @@ impl<const J: usize> Scene<J> {
             let length = system.variables.len();
             let (own, rest) = of_systems.split_at_mut(length);
             let turn = vector(d, at);
-            system.rates(clock, (t, turn), places.of(i), own, booked);
+            let around = (clock, &self.environment);
+            system.rates(around, (t, turn), places.of(i), own, booked);
             (of_systems, at) = (rest, at + length);
         }
     }
@@ -188,14 +190,14 @@ impl<const J: usize> System<J> {
     /// Rates of its variables, and what the sources give.
     fn rates(
         &self,
-        clock: &Clock,
+        around: (&Clock, &Environment),
         (t, turn): (f64, Vec3<f64>),
         at: &mut SystemPlaces<J>,
         rates: &mut [f64],
         booked: &mut [f64],
     ) {
         rates.fill(0.0);
-        let (on_base, total_N) = self.load(clock, t, at, rates, booked);
+        let (on_base, total_N) = self.load(around, t, at, rates, booked);
         let mut outside = at.on_bodies.as_ref().map_or_else(Outside::nothing, |on| (&**on).into());
         outside.base += on_base;
         let (nu, drives) = (at.state.velocity(), self.joint_drives(t, &at.on_joints));
@@ -216,18 +218,18 @@ impl<const J: usize> System<J> {
         put_vector(rates, v.given(), given_N);
     }
 
-    /// What the effectors do: on the base at Bo in base axes, the ideal actuator and what turns against
+    /// What the effectors and the environment do: on the base at Bo in base axes, the ideal actuator and what turns against
     /// the base with it; and what comes from outside, about the origin of N in inertial axes.
     fn load(
         &self,
-        clock: &Clock,
+        (clock, environment): (&Clock, &Environment),
         t: f64,
         at: &mut SystemPlaces<J>,
         rates: &mut [f64],
         booked: &mut [f64],
     ) -> (SpatialForce<f64>, SpatialForce<f64>) {
         let SystemPlaces { configuration, state, row, on_joints, on_bodies, coupled_N, .. } = at;
-        let sees_links = self.effectors.iter().any(|e| e.sees_links());
+        let sees_links = environment.acts() || self.effectors.iter().any(|e| e.sees_links());
         let posture = sees_links.then_some(configuration.posture);
         let k = posture.map(|posture| Kinematics { robot: &self.robot, state, posture });
         let (period_start, within) = (clock.period_start, clock.within);
@@ -248,6 +250,13 @@ impl<const J: usize> System<J> {
             total_N += SpatialForce::new(given.angular, given.linear);
             internal_B += load.internal_B;
             on_base += load.on_base;
+        }
+        if let Some(k) = k.as_ref().filter(|_| environment.acts()) {
+            let mut load = Load::nothing(on_joints, on_bodies);
+            environment.act(k, &mut load);
+            let given = load.given(state);
+            Bookings::book(booked, Source::Gravity, &given);
+            total_N += SpatialForce::new(given.angular, given.linear);
         }
         on_base.torque += self.actuator_torque_B + internal_B;
         at.internal_B = internal_B;

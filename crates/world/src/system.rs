@@ -1,7 +1,7 @@
 //! One system: a robot on a base that nothing holds, what drives it and what is bolted to it. A rigid
 //! body is a system without joints.
 
-use crate::effectors::{Cmgs, Effector, TankWithPropellant, Thrusters, Wheels};
+use crate::effectors::{Cmgs, Effector, SloshingTank, TankWithPropellant, Thrusters, Wheels};
 use crate::integrate::add_compensated;
 use crate::setup::{BaseAttitude, Drive, SystemSetup};
 use crate::variables::{Variables, put_vector, vector};
@@ -28,11 +28,13 @@ pub struct Held {
 /// about the origin of N; the base's twist follows from them, less what wheels and CMGs hold. So only
 /// what comes from outside can change momentum, at any step size.
 pub(crate) struct System<const J: usize> {
-    /// With its propellant and what it holds. Where it has wheels, their inertia about their axes is not
-    /// in its base: they turn by themselves.
+    /// With its propellant, by which it may have two joints more, and what it holds. Where it has wheels,
+    /// their inertia about their axes is not in its base: they turn by themselves.
     pub(crate) robot: Robot<f64, J>,
     /// Without payloads and propellant.
-    dry: Robot<f64, J>,
+    pub(crate) dry: Robot<f64, J>,
+    /// The robot as if its propellant did not swing, where it does.
+    pub(crate) rigid: Option<Box<Robot<f64, J>>>,
     pub(crate) held: Vec<Option<Held>>,
     pub(crate) limits: [JointLimits<f64>; J],
     pub(crate) actuator: Option<AttitudeActuator<f64>>,
@@ -43,6 +45,8 @@ pub(crate) struct System<const J: usize> {
     /// Torque of the ideal attitude actuator (N·m, base axes).
     pub(crate) actuator_torque_B: Vec3<f64>,
     pub(crate) effectors: Vec<Box<dyn Effector<J>>>,
+    /// Number of the effector that is a tank in which the propellant swings.
+    pub(crate) slosh: Option<usize>,
     /// Propellant that thrusters have asked for and that is still on board (kg).
     pub(crate) burnt: f64,
     pub(crate) variables: Variables,
@@ -72,6 +76,7 @@ impl<const J: usize> System<J> {
         let mut system = Self {
             robot: *setup.robot,
             dry: *setup.robot,
+            rigid: None,
             held: held.collect(),
             limits,
             actuator: setup.actuator,
@@ -79,6 +84,7 @@ impl<const J: usize> System<J> {
             mass: 0.0,
             drives: [Drive::Effort(0.0); J],
             actuator_torque_B: Vec3::zero(),
+            slosh: effectors.iter().position(|e| e.slosh().is_some()),
             effectors,
             burnt: 0.0,
             variables: Variables::default(),
@@ -130,7 +136,8 @@ impl<const J: usize> System<J> {
     /// The list of variables, and room for them behind those that are there already.
     fn list_variables(&mut self) {
         let names: Vec<_> = self.effectors.iter().map(|e| e.variables()).collect();
-        self.variables = Variables::new(self.robot.joint_count(), &names);
+        let (all, own) = (self.robot.joint_count(), self.dry.joint_count());
+        self.variables = Variables::new(all, own, &names);
         self.row.resize(self.variables.len(), 0.0);
         self.carry.resize(self.variables.len(), 0.0);
     }
@@ -145,12 +152,33 @@ impl<const J: usize> System<J> {
 
     /// The robot with its effectors, its propellant and with what is in its grips.
     pub(crate) fn weigh(&mut self) {
-        let base = Frame { body: BodyId::Base, X_BF: Pose::identity() };
-        let own = self.effectors.iter().filter_map(|e| e.mass_properties());
-        let fitted = own.fold(self.dry, |robot, more| robot.with_payload(&base, &more));
-        let held = self.held.iter().flatten();
-        self.robot = held.fold(fitted, |robot, h| robot.with_payload(&h.frame, &h.matter));
+        let hung = self.slosh().map_or(self.dry, |slosh| slosh.hung_on(&self.dry));
+        self.robot = self.laden(hung, |e| e.mass_properties());
         self.mass = self.robot.mass();
+        if self.slosh.is_some() {
+            let at_rest = |e: &dyn Effector<J>| match e.slosh() {
+                Some(slosh) => Some(slosh.at_rest()),
+                None => e.mass_properties(),
+            };
+            let rigid = self.laden(self.dry, at_rest);
+            match &mut self.rigid {
+                Some(place) => **place = rigid,
+                None => self.rigid = Some(Box::new(rigid)),
+            }
+        }
+    }
+
+    /// A robot with what its effectors weigh and with what is in the grips.
+    fn laden(
+        &self,
+        robot: Robot<f64, J>,
+        weight: impl Fn(&dyn Effector<J>) -> Option<MassProperties<f64>>,
+    ) -> Robot<f64, J> {
+        let base = Frame { body: BodyId::Base, X_BF: Pose::identity() };
+        let own = self.effectors.iter().filter_map(|e| weight(e.as_ref()));
+        let fitted = own.fold(robot, |robot, more| robot.with_payload(&base, &more));
+        let held = self.held.iter().flatten();
+        held.fold(fitted, |robot, h| robot.with_payload(&h.frame, &h.matter))
     }
 
     /// Angular momentum that the effectors store beside the bodies, base axes (N·m·s).
@@ -279,7 +307,12 @@ fn effectors<const J: usize>(
         all.push(Box::new(Thrusters::new(&fitted.thrusters, setup.equipment.seed)));
     }
     if let Some(tank) = &fitted.tank {
-        all.push(Box::new(TankWithPropellant::new(tank)));
+        let joint = setup.robot.joint_count();
+        let slosh = setup.equipment.slosh;
+        match slosh.and_then(|slosh| SloshingTank::new(tank, &slosh, joint)) {
+            Some(sloshing) => all.push(Box::new(sloshing)),
+            None => all.push(Box::new(TankWithPropellant::new(tank))),
+        }
     }
     (all, wheels)
 }

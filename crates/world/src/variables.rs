@@ -11,19 +11,23 @@ use wrasse_spatial::Vec3;
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Variables {
     joints: usize,
+    /// How many of the joints are the robot's own.
+    own: usize,
     /// Those of each effector.
     effectors: Vec<Range<usize>>,
     names: Vec<String>,
 }
 
 impl Variables {
-    /// Of a system with so many joints and with effectors whose variables have these names.
-    pub(crate) fn new(joints: usize, effectors: &[Vec<String>]) -> Self {
-        let mut all = Self { joints, effectors: vec![], names: vec![] };
+    /// Of a system with so many joints, the first of them its `own`, and with effectors whose variables
+    /// have these names.
+    pub(crate) fn new(joints: usize, own: usize, effectors: &[Vec<String>]) -> Self {
+        let mut all = Self { joints, own, effectors: vec![], names: vec![] };
         let three = |name: &str| vec![name.to_owned(); 3];
         all.names.extend(three("attitude of the base"));
         for _ in ["position", "rate"] {
-            all.names.extend((0..joints).map(|j| format!("position or rate of joint {j}")));
+            all.names.extend((0..own).map(|j| format!("position or rate of joint {j}")));
+            all.names.extend((own..joints).map(|_| "swing of the propellant".to_owned()));
         }
         for name in
             ["centre of mass", "linear momentum", "angular momentum", "impulse of the actuator"]
@@ -76,10 +80,11 @@ impl Variables {
     pub(crate) fn effector(&self, number: usize) -> Range<usize> {
         self.effectors[number].clone()
     }
-    /// What the number at a place is, and of which joint.
+    /// What the number at a place is, and of which of its own joints.
     pub(crate) fn name(&self, place: usize) -> (&str, Option<usize>) {
         let joint = self.q().chain(self.v()).position(|at| at == place);
-        (&self.names[place], joint.map(|j| j % self.joints.max(1)))
+        let joint = joint.map(|j| j % self.joints.max(1)).filter(|j| *j < self.own);
+        (&self.names[place], joint)
     }
 }
 

@@ -7,8 +7,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use wrasse_document::at;
 use wrasse_dynamics::State;
+use wrasse_rehearsal::figures::rounded;
+use wrasse_spatial::Vec3;
 use wrasse_vehicle::JOINTS;
-use wrasse_world::{BaseAttitude, Stepper};
+use wrasse_world::{BaseAttitude, Environment, Stepper};
 
 /// What becomes of the base's attitude.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
@@ -46,6 +48,9 @@ pub(crate) struct WorldFile {
     pub(crate) step_s: Option<f64>,
     /// Error allowed in each step of the adaptive integrator; it replaces the fixed step.
     pub(crate) adaptive_tolerance: Option<f64>,
+    /// Acceleration of what falls freely, inertial axes; free space if not given. The laws do not know of
+    /// it.
+    pub(crate) gravity_m_s2: Option<[f64; 3]>,
     /// Wrenches from outside.
     pub(crate) applied_wrench: Vec<WrenchFile>,
 }
@@ -58,6 +63,7 @@ impl Default for WorldFile {
             torque_joints: vec![],
             step_s: None,
             adaptive_tolerance: None,
+            gravity_m_s2: None,
             applied_wrench: vec![],
         }
     }
@@ -81,6 +87,24 @@ pub(crate) fn base_attitude(
         BaseFile::Controlled => BaseAttitude::Controlled,
         BaseFile::Free => BaseAttitude::Free,
     }
+}
+
+/// Strongest gravity that is believed (m/s²): Jupiter has 25.
+const STRONG: f64 = 100.0;
+
+/// What surrounds the vehicle.
+pub(crate) fn environment(r: &mut Reading<'_>, file: &MissionFile) -> Environment {
+    let acceleration_N = Vec3::from_array(file.world.gravity_m_s2.unwrap_or_default());
+    let strength = acceleration_N.norm();
+    if strength > STRONG {
+        let message =
+            format!("gravity of {} m/s² is stronger than any planet's", rounded(strength));
+        r.warning(at!["world", "gravity_m_s2"], message, "the Earth has 9.8 m/s²");
+    }
+    if strength == 0.0 {
+        return Environment::FreeSpace;
+    }
+    Environment::UniformGravity { acceleration_N }
 }
 
 /// Shortest and longest step (s), least and most tolerance of the integrators.

@@ -150,7 +150,22 @@ fn slider() -> Pair {
     Pair { name: "slider", good: mission(0.001), bad: mission(0.28) }
 }
 
+/// Propellant that swings, pushed aside a little and far.
+fn slosh() -> Pair {
+    let mission = |newtons: f64| {
+        format!(
+            "{HEAD}{ARM}[[world.applied_wrench]]\non = \"bus\"\nforce_n = [0.0, 0.0, {newtons:.1}]\nfrom_s = \
+             0.0\nduration_s = 2.0\n{LAWS}actuators = \"unlimited\"\n[actuators.tank]\npropellant_kg = 200.0\n\
+             position_m = [-0.2, 0.0, 0.0]\nslosh = {{ sphere = {{ radius_m = 0.45 }}, axis = [1.0, 0.0, 0.0], \
+             density_kg_m3 = 1004.0, damping_ratio = 0.05, acceleration_m_s2 = 0.25, source.assumed = \"some\" \
+             }}\nsource.assumed = \"some\"\n[[phase]]\nname = \"hold\"\nhold = {{ duration_s = 2.0, keep = \
+             \"joints\" }}\n"
+        )
+    };
+    Pair { name: "slosh", good: mission(1.0), bad: mission(400.0) }
+}
+
 /// All of them.
 pub(crate) fn pairs() -> Vec<Pair> {
-    vec![drives(), coast(), wheels(), cmgs(), thrusters(), estimator(), slider()]
+    vec![drives(), coast(), wheels(), cmgs(), thrusters(), estimator(), slider(), slosh()]
 }

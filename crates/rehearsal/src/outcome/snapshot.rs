@@ -57,7 +57,8 @@ pub(crate) fn snapshot(
 
 /// A line for each chain: from where it leaves the base, through its joints, to its outermost frame.
 fn arms(case: &Case, k: &Kinematics<'_, f64, JOINTS>) -> Vec<Vec<[f64; 3]>> {
-    let robot = k.robot;
+    // Its own joints: propellant swings on others.
+    let robot = &case.vehicle.robot;
     let is_tip = |j: usize| robot.joints().all(|c| robot.joint(c).parent != BodyId::Link(j));
     let mut lines = vec![];
     for tip in robot.joints().filter(|&j| is_tip(j)) {

@@ -96,6 +96,8 @@ pub(crate) struct Seen<'a> {
     pub(crate) shape: (f64, f64),
     /// (J)
     pub(crate) energy: f64,
+    /// Of the propellant from the axis of its tank (rad); NaN where none swings.
+    pub(crate) slosh_angle: f64,
     /// Largest torque of a gimbal's motor (N·m).
     pub(crate) motors: f64,
     /// Errors of the tools that have signals of their own, while an arm guides them.
@@ -266,6 +268,12 @@ pub(crate) const SIGNALS: &[Signal] = &[
     .drawn_if("Propellant used", "used", ("g", 1e3), |case| {
         case.equipment.actuators.tank.is_some()
     }),
+    row("slosh.angle", Kind::Angle, &[Max, Final, Rms], Needs::NONE, |s| s.slosh_angle).drawn_if(
+        "Swing of the propellant",
+        "from the axis of its tank",
+        ("deg", DEG),
+        |case| case.equipment.slosh.is_some(),
+    ),
 ];
 
 /// A signal that every joint has.

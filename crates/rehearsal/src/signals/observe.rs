@@ -124,7 +124,7 @@ pub(crate) fn observe(
     let nan = f64::NAN;
     let nothing = Vec3::from_array([nan; 3]);
     let (mounts, reaction_B) =
-        if needs.mounts { mounts(&k, &dynamics) } else { ((nan, nan), nothing) };
+        if needs.mounts { mounts(case, &k, &dynamics) } else { ((nan, nan), nothing) };
     let readings =
         if needs.readings { world.actuator_readings() } else { ActuatorReadings::default() };
     let seen = Observation {
@@ -161,6 +161,7 @@ pub(crate) fn observe(
         mounts,
         shape: if needs.shape { shape(computer, &k) } else { (nan, nan) },
         energy: if needs.energy { there(kinetic_energy(&k)) } else { nan },
+        slosh_angle: world.slosh_angle().map_or(nan, there),
         motors: if needs.motors { motor_torque(case, world) } else { nan },
         tools: tool_errors(case, computer, &k),
     });
@@ -230,16 +231,23 @@ fn stored(case: &Case, readings: &ActuatorReadings<f64>) -> Vec3<f64> {
 }
 
 /// Largest force (N) and moment (N·m) at a mount, and the torque about the base's centre of mass by
-/// which the base carries all arms (base axes).
+/// which the base carries all arms (base axes). Propellant that swings is no arm.
 fn mounts(
+    case: &Case,
     k: &Kinematics<'_, f64, JOINTS>,
     dynamics: &Dynamics<f64, JOINTS>,
 ) -> ((f64, f64), Vec3<f64>) {
-    let forces = inverse_dynamics(k, &dynamics.nudot, Outside::nothing());
-    let X_NB = &k.X_NB(BodyId::Base);
+    let (X_NB, mut nudot) = (&k.X_NB(BodyId::Base), dynamics.nudot);
+    if let Some(g_N) = case.environment.gravity_N() {
+        // Weights are as a base that accelerates upwards: a mount bears no more than keeps its arm from
+        // falling as the base does.
+        nudot.base.linear -= X_NB.rotation.transpose_mul(g_N);
+    }
+    let forces = inverse_dynamics(k, &nudot, Outside::nothing());
     let p_NBcm = X_NB.point(k.robot.inertia(BodyId::Base).centre_of_mass());
     let (mut largest, mut total) = ((0.0_f64, 0.0_f64), Vec3::zero());
-    for j in k.robot.joints().filter(|&j| k.robot.joint(j).parent == BodyId::Base) {
+    let own = case.vehicle.robot.joints();
+    for j in own.filter(|&j| k.robot.joint(j).parent == BodyId::Base) {
         let F = mount_reaction(k, &forces, j);
         largest = (largest.0.max(F.force.norm()), largest.1.max(F.torque.norm()));
         total += F.torque + (k.joint_origin(j) - p_NBcm).cross(F.force);

@@ -7,7 +7,7 @@ use crate::equipment::Equipment;
 use crate::figures::figures;
 use crate::table::{Reading, under};
 use crate::vehicle::{JOINTS, VehicleRobot};
-use wrasse_document::{Complaint, Document, Step};
+use wrasse_document::{Complaint, Document, Step, at};
 use wrasse_dynamics::{BodyId, PerBody};
 use wrasse_spatial::{Pose, Sym3, Vec3, vec3};
 
@@ -22,6 +22,7 @@ pub fn check_equipment(
     let mut reading = Reading::new(document);
     check_base(&mut reading, path, equipment, robot);
     check_thrusters(&mut reading, path, equipment, robot);
+    check_room_for_slosh(&mut reading, path, equipment, robot);
     doubt_places(&mut reading, path, equipment);
     reading.found.into_complaints()
 }
@@ -129,6 +130,23 @@ fn centre_of_mass(equipment: &Equipment, robot: &VehicleRobot) -> Vec3<f64> {
             let moment = p_cm * mass + tank.position_B * tank.propellant;
             moment * (1.0 / (mass + tank.propellant))
         }
+    }
+}
+
+/// Propellant swings on two joints more.
+fn check_room_for_slosh(
+    reading: &mut Reading<'_>,
+    path: &[Step<'_>],
+    equipment: &Equipment,
+    robot: &VehicleRobot,
+) {
+    let own = robot.joint_count();
+    if equipment.slosh.is_some() && own + 2 > JOINTS {
+        let message = format!(
+            "propellant swings on two joints, and {own} of {JOINTS} that a vehicle may have are taken"
+        );
+        let help = "weld joints that do not move, or leave out [actuators.tank.slosh]";
+        reading.error(&[path, at!["tank", "slosh"]].concat(), message, "no room", help);
     }
 }
 

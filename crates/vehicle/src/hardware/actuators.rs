@@ -3,6 +3,7 @@
 use super::catalogue::ModelsUsed;
 use super::cmg::CmgFile;
 use super::cmg_array::CmgArrayFile;
+use super::slosh::slosh;
 use super::tank::{TankFile, tank};
 use super::thruster::ThrusterFile;
 use super::thruster_set::ThrusterSetFile;
@@ -14,7 +15,7 @@ use crate::table::{Reading, SourceFile, Sources, under};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::ops::Range;
-use wrasse_document::{Complaint, Document, Step};
+use wrasse_document::{Complaint, Document, Step, at};
 use wrasse_hardware::{
     Actuators, CMGS, ControlMomentGyro, List, ReactionWheel, THRUSTERS, Thruster, WHEELS,
 };
@@ -81,6 +82,11 @@ pub(crate) fn equipment(
         sources.block(reading, &path, "actuators.tank", &given.provenance);
         tank(reading, &path, given)
     });
+    let slosh = file.tank.as_ref().zip(tank).and_then(|(given, tank)| {
+        let (given, path) = (given.slosh.as_ref()?, [path, at!["tank", "slosh"]].concat());
+        sources.block(reading, &path, "actuators.tank.slosh", &given.provenance);
+        slosh(reading, &path, given, &tank)
+    });
     let mut provenance = std::mem::take(&mut sources.rows);
     provenance.append(&mut models.rows);
     let Units { wheels, cmgs, thrusters, .. } = &units;
@@ -102,6 +108,7 @@ pub(crate) fn equipment(
         thruster_names: names(thrusters, THRUSTERS),
         wheel_speed: starts(wheels),
         gimbal_angle,
+        slosh,
         mass: units.sum(|entry| entry.mass),
         power: units.sum(|entry| entry.power),
         provenance,

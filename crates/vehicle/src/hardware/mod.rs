@@ -8,6 +8,7 @@ mod cmg_array;
 mod numbers;
 mod rate_gyro;
 mod sensors;
+mod slosh;
 mod star_tracker;
 mod tank;
 mod thruster;

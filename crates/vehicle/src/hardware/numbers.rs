@@ -35,6 +35,17 @@ const fn not_negative(most: f64) -> Believed {
     Believed { least: 0.0, most, zero: true }
 }
 
+impl Figure {
+    /// A number that must be positive, and is believed from one to another.
+    pub(crate) const fn positive(key: &'static str, value: f64, (least, most): (f64, f64)) -> Self {
+        Self { key, value: Some(value), believed: positive(least, most) }
+    }
+    /// A number that must be zero or more, and is believed up to another.
+    pub(crate) const fn not_negative(key: &'static str, value: f64, most: f64) -> Self {
+        Self { key, value: Some(value), believed: not_negative(most) }
+    }
+}
+
 /// The numbers of one kind of unit.
 pub(crate) trait Numbers: Copy {
     /// What a unit of this kind is called.
@@ -160,13 +171,15 @@ unit_numbers! {
     rate_limit_deg_s: positive(0.01, 360.0),
 }
 
-/// Complains of numbers of the unit `of` that cannot be, and doubts those that hardly any unit has.
+/// Complains of numbers of the unit `of` that cannot be, and doubts those that hardly any unit has;
+/// whether all can be.
 pub(crate) fn check_figures(
     reading: &mut Reading<'_>,
     path: &[Step<'_>],
     of: &str,
     numbers: &[Figure],
-) {
+) -> bool {
+    let mut possible = true;
     for figure in numbers {
         let Believed { least, most, zero } = figure.believed;
         let Some(found) = figure.value else { continue };
@@ -176,6 +189,7 @@ pub(crate) fn check_figures(
             let wanted = if zero { "zero or more" } else { "positive" };
             let message = format!("`{key}` of {of} must be {wanted}, found {found}");
             reading.error(&place, message, "this number", "");
+            possible = false;
         } else if found < least || found > most {
             let message = format!(
                 "`{key}` of {of} is {found}: units that are known have {} to {}",
@@ -185,6 +199,7 @@ pub(crate) fn check_figures(
             reading.warning(&place, message, "this number", "is it in the unit of its key?");
         }
     }
+    possible
 }
 
 /// Complains, once, of the numbers of the unit `of` that are due and missing.

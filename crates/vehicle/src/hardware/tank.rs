@@ -1,5 +1,6 @@
 //! The table `[actuators.tank]`.
 
+use super::slosh::SloshFile;
 use crate::table::{ProvenanceFile, Reading, under};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -15,6 +16,8 @@ pub(crate) struct TankFile {
     pub(crate) propellant_kg: f64,
     /// Centre of the propellant, in the base's frame (m).
     pub(crate) position_m: [f64; 3],
+    /// How the propellant swings; a point at rest if not given.
+    pub(crate) slosh: Option<SloshFile>,
     /// Where these numbers come from.
     #[serde(flatten)]
     pub(crate) provenance: ProvenanceFile,

@@ -5,6 +5,8 @@ mod applied_wrench;
 mod cmgs;
 mod flexible_joints;
 mod passive_joints;
+mod slosh;
+mod slosh_pendulum;
 mod tank;
 mod thrusters;
 mod wheels;
@@ -13,6 +15,8 @@ pub use applied_wrench::{AppliedWrench, Course, Instant};
 pub(crate) use cmgs::Cmgs;
 pub use flexible_joints::{FlexibleJoint, FlexibleJoints};
 pub use passive_joints::{JointSpring, PassiveJoints};
+pub use slosh::SloshingTank;
+pub use slosh_pendulum::SloshPendulum;
 pub use tank::TankWithPropellant;
 pub(crate) use thrusters::Thrusters;
 pub(crate) use wheels::Wheels;
@@ -76,6 +80,14 @@ pub trait Effector<const J: usize>: Debug + Send + Sync {
     }
     /// The propellant that it holds, if it is a tank.
     fn tank(&mut self) -> Option<&mut TankWithPropellant> {
+        None
+    }
+    /// Itself, if it is a tank in which the propellant swings.
+    fn slosh(&self) -> Option<&SloshingTank> {
+        None
+    }
+    /// The same, to be changed.
+    fn slosh_mut(&mut self) -> Option<&mut SloshingTank> {
         None
     }
 }
