@@ -16,6 +16,7 @@ use wrasse_flight_c::{
     WrasseLaws, WrasseSensed, WrasseStatus, frame_from_table, robot_from_tables,
     wrasse_flight_period, wrasse_flight_set_up,
 };
+use wrasse_testing::{larger, largest};
 
 const PERIOD: f64 = 0.01;
 const TOOL_GAIN: f64 = 2.0;
@@ -110,7 +111,7 @@ fn fly(
 }
 
 fn apart<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    largest(a.iter().zip(b).map(|(a, b)| (a - b).abs()))
 }
 
 /// Period of the wrong reading: the tool is on its way.
@@ -198,8 +199,8 @@ fn a_wrong_reading_throws_no_set_point_far_and_dies_out_with_the_gain_of_the_too
         for (number, spoil) in wrong_readings().iter().enumerate() {
             let t = traces(law, 0.0, &**spoil, ten + 4).expect("it is within its bounds");
             // The wrong reading is felt in its own period and in the next.
-            let thrown = t[..4].iter().map(|t| t[0]).fold(0.0, f64::max);
-            let left = |periods: usize| t[3 + periods][1] / t[3][1].max(1e-9);
+            let thrown = largest(t[..4].iter().map(|t| t[0]));
+            let left = |periods: usize| t[3 + periods][1] / larger(t[3][1], 1e-9);
             let [joints, _, effort] = t[3 + ten];
             let case =
                 format!("law {law}, reading {number}: {thrown}, {}, {}", left(constant), left(ten));

@@ -10,6 +10,7 @@ use wrasse_flight_c::{
     WrasseBody, WrasseFrame, WrasseJoint, WrasseLink, frame_from_table, robot_from_tables,
 };
 use wrasse_spatial::{SpatialInertia, Vec3};
+use wrasse_testing::largest;
 use wrasse_vehicle::{JOINTS, Vehicle, catalogue};
 
 fn vehicle(name: &str) -> Vehicle {
@@ -112,10 +113,11 @@ fn a_robot_from_its_table_is_the_robot_of_the_catalogue() {
     let apart = k.pose(&frame).translation - expected.pose(&frame).translation;
     let (M, M_expected) =
         (mass_matrix(&k).M_bb.to_matrix(), mass_matrix(&expected).M_bb.to_matrix());
-    let largest = M.iter().flatten().zip(M_expected.iter().flatten()).map(|(a, b)| (a - b).abs());
-    let largest = largest.fold(0.0, f64::max) / M_expected[0][0];
+    let differences =
+        M.iter().flatten().zip(M_expected.iter().flatten()).map(|(a, b)| (a - b).abs());
+    let apart_by_mass = largest(differences) / M_expected[0][0];
     assert_eq!(robot.joint_count(), vehicle.robot.joint_count());
-    assert!(apart.norm() < 1e-14 && largest < 1e-14, "{} m, {largest}", apart.norm());
+    assert!(apart.norm() < 1e-14 && apart_by_mass < 1e-14, "{} m, {apart_by_mass}", apart.norm());
 }
 
 /// A vehicle as C. Rust's nested arrays are C's with braces.

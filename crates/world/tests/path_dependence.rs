@@ -8,8 +8,8 @@ use atlas_class::{J, SIDEWAYS_300MM_DEG, cube, tool, unladen};
 use wrasse_dynamics::{State, kinematics, mass_matrix, reaction_null_space};
 use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::{Pose, Quat, Vec3};
-use wrasse_testing::{OneSystem, OneSystemSetup};
 use wrasse_world::{BaseAttitude, Drive, Equipment, Stepper};
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 /// A floating servicer with 500 kg, at rest.
 fn at_rest() -> OneSystem<J> {
