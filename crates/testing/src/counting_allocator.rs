@@ -3,6 +3,7 @@
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
+use std::hint::black_box;
 
 /// The system's allocator, with its calls counted. A test that counts says so in its own crate:
 /// `#[global_allocator] static ALLOCATOR: Counting = Counting;`
@@ -34,8 +35,17 @@ unsafe impl GlobalAlloc for Counting {
     }
 }
 
-/// Calls to the allocator while something runs; zero always where [`Counting`] is not the allocator.
+/// Calls to the allocator while something runs.
+///
+/// # Panics
+/// If [`Counting`] is not the program's allocator: nothing would ever be counted.
 pub fn allocations(run: impl FnOnce()) -> usize {
+    let counts = counted(|| drop(black_box(Box::new(0_u8))));
+    assert!(counts > 0, "`Counting` is not the global allocator of this program");
+    counted(run)
+}
+
+fn counted(run: impl FnOnce()) -> usize {
     let before = CALLS.with(Cell::get);
     run();
     CALLS.with(Cell::get) - before

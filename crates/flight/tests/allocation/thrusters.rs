@@ -282,7 +282,7 @@ proptest! {
         if let Some(least) = best_corner(&columns, &cost, torque) {
             prop_assert!(s.missing.torque.norm() < 1e-10, "{:?}", s.missing);
             let takes = propellant(&set, &s.duty);
-            prop_assert!((takes - least).abs() < 1e-10, "{takes}, not {least}");
+            prop_assert!((takes - least).abs() < 1e-13, "{takes}, not {least}");
         } else {
             let (mut with_share, mut cost) = (columns.clone(), vec![0.0; 8]);
             with_share.push(-torque);
@@ -292,7 +292,7 @@ proptest! {
             let got = torque - s.missing.torque;
             let shares = torque.to_array().into_iter().zip(got.to_array()).map(|(w, g)| g / w);
             let least = shares.fold(1.0, smaller);
-            prop_assert!(least > share - 1e-9, "{least}, not {share}");
+            prop_assert!(least > share - 1e-13, "{least}, not {share}");
         }
     }
 

@@ -70,7 +70,7 @@ fn perfect_sensors_do_no_harm() {
     let mut filter = truth.filter(&setup);
     let estimate = truth.run(&mut filter, 6000);
     let error = truth.error(&estimate).norm();
-    assert!(error < 1e-9 && estimate.refused == 0, "{error:e}, {} refused", estimate.refused);
+    assert!(error < 2e-11 && estimate.refused == 0, "{error:e}, {} refused", estimate.refused);
 }
 
 /// A coarse gyro: its steps are noise that the filter must know of. On a base that turns slowly they
