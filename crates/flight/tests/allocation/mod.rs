@@ -6,6 +6,7 @@ pub(crate) mod bench;
 mod cmgs;
 mod desaturation;
 mod momentum_error;
+mod published_programs;
 mod pulse_modulation;
 mod thrusters;
 mod unload_by_posture;
