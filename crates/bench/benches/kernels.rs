@@ -6,8 +6,8 @@ use std::hint::black_box;
 use std::time::Duration;
 use wrasse_bench::{BATCHES, KERNELS, Places, Quantity, STATES, Subject, subject, widened};
 use wrasse_spatial::{Instructions, Lanes, Level, Real, Work};
-use wrasse_testing::{OneSystem, OneSystemSetup};
 use wrasse_world::{BaseAttitude, Equipment, Stepper};
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 /// Samples as the peers take them: fifteen batches.
 fn settings() -> Criterion {

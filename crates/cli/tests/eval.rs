@@ -9,6 +9,7 @@ use binary::{Folder, at, checkout};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fs;
+use wrasse_testing::{larger, largest};
 
 /// Asked of every array, relative to its largest element: the contract's figure. Measured 3.7e-15
 /// at most (angular momentum of two arms).
@@ -28,13 +29,13 @@ impl Worst {
     #[track_caller]
     fn note(&mut self, what: &str, found: &[f64], expected: &[f64], relative: f64) {
         assert_eq!(found.len(), expected.len(), "{what}: number of elements");
-        let largest = expected.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-        let off = found.iter().zip(expected).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
-        let allowed = FLOOR.max(relative * largest);
+        let scale = largest(expected.iter().map(|x| x.abs()));
+        let off = largest(found.iter().zip(expected).map(|(a, b)| (a - b).abs()));
+        let allowed = larger(FLOOR, relative * scale);
         assert!(off <= allowed, "{what}: off by {off:e}\n{found:?}\n{expected:?}");
         let worst = self.0.entry(what.to_owned()).or_default();
         // What is zero but for rounding says nothing about agreement.
-        *worst = worst.max(if largest > 1e-6 { off / largest } else { 0.0 });
+        *worst = larger(*worst, if scale > 1e-6 { off / scale } else { 0.0 });
     }
     #[track_caller]
     fn values(&mut self, what: &str, found: &Value, expected: &Value, relative: f64) {

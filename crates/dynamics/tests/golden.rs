@@ -17,6 +17,7 @@ use wrasse_dynamics::{
     mass_matrix, momentum, mount_reaction, printed_reaction, virtual_manipulator,
 };
 use wrasse_spatial::{Pose, Quat, SpatialForce, SpatialVelocity, Vec3};
+use wrasse_testing::{larger, largest};
 
 /// Asked of every array, relative to its largest element: the numbers carry 17 digits and both
 /// sides sum about ten bodies. Measured 8e-15 at most (angular momentum).
@@ -62,10 +63,10 @@ fn agree(what: &str, found: &[f64], expected: &Value, relative: f64) {
 #[track_caller]
 fn agree_with(what: &str, found: &[f64], expected: &[f64], relative: f64) {
     assert_eq!(found.len(), expected.len(), "{what}: number of elements");
-    let largest = expected.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-    let worst = found.iter().zip(expected).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
-    println!("{what}: {:.1e} of the largest element", worst / largest.max(1e-300));
-    let allowed = FLOOR.max(relative * largest);
+    let scale = largest(expected.iter().map(|x| x.abs()));
+    let worst = largest(found.iter().zip(expected).map(|(a, b)| (a - b).abs()));
+    println!("{what}: {:.1e} of the largest element", worst / larger(scale, 1e-300));
+    let allowed = larger(FLOOR, relative * scale);
     assert!(worst <= allowed, "{what}: off by {worst:e}\n{found:?}\n{expected:?}");
 }
 

@@ -3,10 +3,6 @@
 #![allow(clippy::unwrap_used, reason = "a test that unwraps nothing fails")]
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
-#[allow(dead_code, reason = "other tests ask more of the same robots")]
-mod random_robot;
-
-use random_robot::{JOINTS, Recipe, Scene};
 use std::array;
 use wrasse_dynamics::{
     BaseMode, Generalized, JointDrive, PerBody, Robot, State, driven_dynamics, forward_dynamics,
@@ -14,6 +10,7 @@ use wrasse_dynamics::{
     mass_matrix, momentum_matrix,
 };
 use wrasse_spatial::{Lanes, Level, Pose, Real, SideBySide, SpatialForce, SpatialVelocity};
+use wrasse_testing::random_robot::{JOINTS, Recipe, Scene};
 
 /// What is worked out, number by number.
 fn numbers<T: Real>(

@@ -2,16 +2,15 @@
 #![allow(clippy::unwrap_used, reason = "a test that unwraps nothing fails")]
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
-#[allow(dead_code, reason = "other tests ask more of the same robots")]
-mod random_robot;
 mod reference;
 
-use random_robot::{Random, Recipe, Scene};
 use wrasse_dynamics::{
     BodyId, Generalized, Joint, JointKind, MassProperties, Outside, Robot, State, forward_dynamics,
     inverse_dynamics, kinematics,
 };
 use wrasse_spatial::{Pose, SpatialForce, Sym3, Vec3, vec3};
+use wrasse_testing::largest;
+use wrasse_testing::random_robot::{JOINTS, Random, Recipe, Scene};
 
 const J: usize = 32;
 
@@ -51,9 +50,9 @@ fn each_motor_of_a_long_arm_is_told_its_torque() {
             let k = kinematics(&robot, &state);
             let found = inverse_dynamics(&k, &nudot, Outside::nothing()).force.joints;
             let expected = reference::inverse_dynamics(&robot, &state, &nudot);
-            let largest = expected.iter().fold(0.0, |m: f64, tau| m.max(tau.abs()));
+            let scale = largest(expected.iter().map(|tau| tau.abs()));
             for j in robot.joints() {
-                let off = (found[j] - expected[j]).abs() / largest;
+                let off = (found[j] - expected[j]).abs() / scale;
                 assert!(off < 1e-12, "{links} links, joint {j}: {off:e}");
             }
         }
@@ -89,14 +88,14 @@ fn forces_of_the_accelerations_that_forces_cause_are_those_forces() {
 #[test]
 fn rows_and_the_textbook_agree_on_random_trees() {
     for seed in 0..200 {
-        let joints = 1 + usize::try_from(seed).unwrap() % random_robot::JOINTS;
+        let joints = 1 + usize::try_from(seed).unwrap() % JOINTS;
         let recipe = Recipe { seed, joints, arms: 1 + joints / 5, sliding: 0.3, branching: 0.3 };
         let s = Scene::new(&recipe);
         let found = inverse_dynamics(&kinematics(&s.robot, &s.state), &s.nudot, Outside::nothing());
         let expected = reference::inverse_dynamics(&s.robot, &s.state, &s.nudot);
-        let largest = expected.iter().fold(0.0, |m: f64, tau| m.max(tau.abs()));
+        let scale = largest(expected.iter().map(|tau| tau.abs()));
         for j in s.robot.joints() {
-            let off = (found.force.joints[j] - expected[j]).abs() / largest;
+            let off = (found.force.joints[j] - expected[j]).abs() / scale;
             assert!(off < 1e-12, "seed {seed}, joint {j}: {off:e}");
         }
     }

@@ -2,12 +2,6 @@
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 #![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
 
-mod counting_allocator;
-#[path = "random_robot/mod.rs"]
-mod random_robot;
-
-use counting_allocator::allocations;
-use random_robot::{JOINTS, Random, Recipe, Scene};
 use std::hint::black_box;
 use wrasse_dynamics::{
     BaseMode, BodyId, Cholesky, Generalized, Joint, JointDrive, JointKind, PerBody, Robot, State,
@@ -18,6 +12,11 @@ use wrasse_dynamics::{
     printed_reaction, reaction_null_space, velocity_from_momentum, virtual_manipulator,
 };
 use wrasse_spatial::SpatialForce;
+use wrasse_testing::random_robot::{JOINTS, Random, Recipe, Scene};
+use wrasse_testing::{Counting, allocations};
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
 
 fn scene() -> Scene {
     Scene::new(&Recipe { seed: 7, joints: 9, arms: 2, sliding: 0.25, branching: 0.3 })

@@ -13,6 +13,7 @@ use wrasse_dynamics::{
     generalized_jacobian, jacobian, kinematics, mass_matrix,
 };
 use wrasse_spatial::{Pose, Sym3, Vec3, vec3};
+use wrasse_testing::{larger, largest};
 
 /// `J*` in the plane: rows x and y, columns q1 and q2.
 type Planar = [[f64; 2]; 2];
@@ -149,7 +150,7 @@ impl Chain {
             let q1 = f64::from(tenth) * 0.1_f64.to_radians();
             let q2 = self.singular_q2(q1, around - 1.0, around + 1.0);
             let r = self.radius([q1, q2]);
-            [r.min(least), r.max(most)]
+            [r.min(least), larger(r, most)]
         })
     }
 }
@@ -160,7 +161,7 @@ fn radians(value: &Value) -> [f64; 2] {
 
 #[track_caller]
 fn agree(what: &str, found: &[f64], expected: &[f64], tolerance: f64) {
-    let worst = found.iter().zip(expected).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
+    let worst = largest(found.iter().zip(expected).map(|(a, b)| (a - b).abs()));
     println!("{what}: {worst:.1e}");
     assert_eq!(found.len(), expected.len());
     assert!(worst <= tolerance, "{what}: {found:?} is not {expected:?} within {tolerance}");

@@ -14,6 +14,7 @@ use wrasse_flight::{
 use wrasse_flight_c::{WRASSE_JOINTS, WrasseFlight};
 use wrasse_hardware::JointLimits;
 use wrasse_spatial::{Mat3, Pose, Quat, SpatialVelocity, vec3};
+use wrasse_testing::largest;
 use wrasse_vehicle::{JOINTS, Vehicle, catalogue};
 
 fn atlas_class() -> Vehicle {
@@ -86,8 +87,8 @@ fn the_example_in_c_is_told_what_rust_is_told() {
     expected.push(told.attitude_torque_B.to_array().to_vec());
     assert_eq!(rows.len(), expected.len(), "{printed}");
     for kind in 0..3 {
-        let size = expected[..7].iter().map(|row| row[kind].abs()).fold(0.0, f64::max);
-        let apart = (0..8).map(|k| (rows[k][kind] - expected[k][kind]).abs()).fold(0.0, f64::max);
+        let size = largest(expected[..7].iter().map(|row| row[kind].abs()));
+        let apart = largest((0..8).map(|k| (rows[k][kind] - expected[k][kind]).abs()));
         assert!(size > 1e-3 && apart <= 1e-12 * size, "column {kind}: {apart:e} of {size}");
     }
 }

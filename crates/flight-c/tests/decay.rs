@@ -4,19 +4,20 @@
 #![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
 #![allow(clippy::large_stack_arrays, reason = "the memory that C gives")]
 
-#[path = "../../../embedded/golden/src/atlas_class.rs"]
-#[allow(clippy::unreadable_literal, reason = "a table made by a test")]
-mod atlas_class;
+mod vehicle_tables;
 
-use atlas_class::{BASE, LINKS, TOOL};
 use std::ptr::null_mut;
+use std::sync::LazyLock;
+use vehicle_tables::{table, tool, vehicle};
 use wrasse_dynamics::{Frame, Robot, State, kinematics};
 use wrasse_flight_c::{
     WRASSE_FLIGHT_WORDS, WRASSE_JOINTS, WrasseArmReference, WrasseControlOutput, WrasseFlight,
     WrasseLaws, WrasseSensed, WrasseStatus, frame_from_table, robot_from_tables,
     wrasse_flight_period, wrasse_flight_set_up,
 };
+use wrasse_testing::{larger, largest};
 
+const VEHICLE: &str = "atlas-class";
 const PERIOD: f64 = 0.01;
 const TOOL_GAIN: f64 = 2.0;
 const RATE_LIMIT: f64 = 0.2;
@@ -40,10 +41,12 @@ fn set_up(law: i32, posture: &[f64; WRASSE_JOINTS]) -> WrasseFlight {
         effort_limit: [500.0; WRASSE_JOINTS],
     };
     let mut flight = WrasseFlight { memory: [0; WRASSE_FLIGHT_WORDS] };
-    let (base, links, tool) = (&BASE, LINKS.as_ptr(), &TOOL);
+    let vehicle = vehicle(VEHICLE);
+    let ((base, links), tool) = (table(&vehicle), tool(&vehicle));
+    let (base, arm, tool) = (&raw const base, links.as_ptr(), &raw const tool);
     // SAFETY: all point to what they are; the complaint may be null.
     let status = unsafe {
-        wrasse_flight_set_up(&raw mut flight, base, links, 7, tool, &raw const laws, null_mut())
+        wrasse_flight_set_up(&raw mut flight, base, arm, 7, tool, &raw const laws, null_mut())
     };
     assert_eq!(status, WrasseStatus::WRASSE_OK);
     flight
@@ -65,22 +68,25 @@ fn sensed() -> WrasseSensed {
     }
 }
 
-fn robot() -> (Robot<f64, WRASSE_JOINTS>, Frame<f64>) {
-    (robot_from_tables(&BASE, &LINKS).unwrap(), frame_from_table(&TOOL))
-}
+/// Read once: it is asked for in every period.
+static ROBOT: LazyLock<(Robot<f64, WRASSE_JOINTS>, Frame<f64>)> = LazyLock::new(|| {
+    let vehicle = vehicle(VEHICLE);
+    let (base, links) = table(&vehicle);
+    (robot_from_tables(&base, &links).unwrap(), frame_from_table(&tool(&vehicle)))
+});
 
 /// Where the tool is with these joints, on a base that stays (m).
 fn tool_at(joint_position: &[f64; WRASSE_JOINTS]) -> [f64; 3] {
-    let (robot, tool) = robot();
+    let (robot, tool) = &*ROBOT;
     let state = State { q: *joint_position, ..State::default() };
-    kinematics(&robot, &state).pose(&tool).translation.to_array()
+    kinematics(robot, &state).pose(tool).translation.to_array()
 }
 
 /// The tool stays where it is at the start, but for 2 cm along x, held as it is turned then.
 fn asked(posture_gain: f64) -> WrasseArmReference {
-    let (robot, tool) = robot();
+    let (robot, tool) = &*ROBOT;
     let state = State { q: sensed().joint_position, ..State::default() };
-    let X = kinematics(&robot, &state).pose(&tool);
+    let X = kinematics(robot, &state).pose(tool);
     let quat = wrasse_spatial::Quat::from_matrix(&X.rotation);
     let [x, y, z] = X.translation.to_array();
     WrasseArmReference {
@@ -110,7 +116,7 @@ fn fly(
 }
 
 fn apart<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    largest(a.iter().zip(b).map(|(a, b)| (a - b).abs()))
 }
 
 /// Period of the wrong reading: the tool is on its way.
@@ -198,8 +204,8 @@ fn a_wrong_reading_throws_no_set_point_far_and_dies_out_with_the_gain_of_the_too
         for (number, spoil) in wrong_readings().iter().enumerate() {
             let t = traces(law, 0.0, &**spoil, ten + 4).expect("it is within its bounds");
             // The wrong reading is felt in its own period and in the next.
-            let thrown = t[..4].iter().map(|t| t[0]).fold(0.0, f64::max);
-            let left = |periods: usize| t[3 + periods][1] / t[3][1].max(1e-9);
+            let thrown = largest(t[..4].iter().map(|t| t[0]));
+            let left = |periods: usize| t[3 + periods][1] / larger(t[3][1], 1e-9);
             let [joints, _, effort] = t[3 + ten];
             let case =
                 format!("law {law}, reading {number}: {thrown}, {}, {}", left(constant), left(ten));

@@ -2,63 +2,18 @@
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 #![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
 
+mod vehicle_tables;
+
 use std::fmt::Write;
 use std::path::Path;
 use std::{env, fs};
-use wrasse_dynamics::{BodyId, JointKind, State, kinematics, mass_matrix};
+use vehicle_tables::{table, tool, vehicle};
+use wrasse_dynamics::{State, kinematics, mass_matrix};
 use wrasse_flight_c::{
     WrasseBody, WrasseFrame, WrasseJoint, WrasseLink, frame_from_table, robot_from_tables,
 };
-use wrasse_spatial::{SpatialInertia, Vec3};
-use wrasse_vehicle::{JOINTS, Vehicle, catalogue};
-
-fn vehicle(name: &str) -> Vehicle {
-    catalogue().iter().find(|entry| entry.name == name).unwrap().read().unwrap()
-}
-
-fn body(M: &SpatialInertia<f64>) -> WrasseBody {
-    let I = M.central();
-    WrasseBody {
-        mass: M.mass,
-        centre_of_mass: M.centre_of_mass().to_array(),
-        inertia: [I.xx, I.yy, I.zz, I.xy, I.xz, I.yz],
-    }
-}
-
-/// A vehicle's robot as a table.
-fn table(vehicle: &Vehicle) -> (WrasseBody, Vec<WrasseLink>) {
-    let robot = &vehicle.robot;
-    let links = robot.joints().map(|j| {
-        let joint = robot.joint(j);
-        let parent = match joint.parent {
-            BodyId::Base => -1,
-            BodyId::Link(p) => i32::try_from(p).unwrap(),
-        };
-        WrasseLink {
-            joint: WrasseJoint {
-                parent,
-                sliding: i32::from(joint.kind == JointKind::Prismatic),
-                position: joint.X_PB_zero.translation.to_array(),
-                rotation: joint.X_PB_zero.rotation.rows.map(Vec3::to_array),
-                axis: joint.axis_B.to_array(),
-            },
-            body: body(robot.inertia(BodyId::Link(j))),
-        }
-    });
-    (body(robot.inertia(BodyId::Base)), links.collect())
-}
-
-fn tool(vehicle: &Vehicle) -> WrasseFrame {
-    let frame = vehicle.frame(&vehicle.tools[0]).unwrap();
-    WrasseFrame {
-        link: match frame.body {
-            BodyId::Base => -1,
-            BodyId::Link(j) => i32::try_from(j).unwrap(),
-        },
-        position: frame.X_BF.translation.to_array(),
-        rotation: frame.X_BF.rotation.rows.map(Vec3::to_array),
-    }
-}
+use wrasse_testing::largest;
+use wrasse_vehicle::{JOINTS, Vehicle};
 
 /// A vehicle as Rust: constants that are printed as the language writes them.
 fn in_rust(vehicle: &Vehicle) -> String {
@@ -112,10 +67,11 @@ fn a_robot_from_its_table_is_the_robot_of_the_catalogue() {
     let apart = k.pose(&frame).translation - expected.pose(&frame).translation;
     let (M, M_expected) =
         (mass_matrix(&k).M_bb.to_matrix(), mass_matrix(&expected).M_bb.to_matrix());
-    let largest = M.iter().flatten().zip(M_expected.iter().flatten()).map(|(a, b)| (a - b).abs());
-    let largest = largest.fold(0.0, f64::max) / M_expected[0][0];
+    let differences =
+        M.iter().flatten().zip(M_expected.iter().flatten()).map(|(a, b)| (a - b).abs());
+    let apart_by_mass = largest(differences) / M_expected[0][0];
     assert_eq!(robot.joint_count(), vehicle.robot.joint_count());
-    assert!(apart.norm() < 1e-14 && largest < 1e-14, "{} m, {largest}", apart.norm());
+    assert!(apart.norm() < 1e-14 && apart_by_mass < 1e-14, "{} m, {apart_by_mass}", apart.norm());
 }
 
 /// A vehicle as C. Rust's nested arrays are C's with braces.

@@ -81,9 +81,10 @@ pub(crate) fn mean_of_turn<T: Real>(u: Vec3<T>) -> Mat3<T> {
 mod tests {
     use super::*;
     use wrasse_spatial::{Quat, vec3};
+    use wrasse_testing::largest;
 
     fn worst(difference: Mat3<f64>) -> f64 {
-        difference.rows.iter().fold(0.0, |m: f64, row| m.max(row.norm()))
+        largest(difference.rows.iter().map(|row| row.norm()))
     }
 
     /// Against Simpson's rule with 200 intervals, for a small turn and a large one.

@@ -116,11 +116,12 @@ mod tests {
         let motion = SetPointMotion::between(from, to, 0.8);
         for (at, want) in [(0.0, from), (0.8, to)] {
             let got = motion.at(at);
-            let off = (got.position - want.position)
-                .abs()
-                .max((got.rate - want.rate).abs())
-                .max((got.acceleration - want.acceleration).abs());
-            assert!(off < 1e-13, "at {at} s off by {off}");
+            let off = [
+                got.position - want.position,
+                got.rate - want.rate,
+                got.acceleration - want.acceleration,
+            ];
+            assert!(off.iter().all(|off| off.abs() < 1e-13), "at {at} s off by {off:?}");
         }
     }
 

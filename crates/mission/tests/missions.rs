@@ -1,10 +1,6 @@
 //! Every shipped mission is flown, and ends as it says it does.
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
-#[path = "figures/mod.rs"]
-mod figures;
-
-use figures::Page;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
@@ -14,6 +10,7 @@ use wrasse_dynamics::{
 use wrasse_mission::{Outcome, read_mission, run};
 use wrasse_rehearsal::{CaseOutcome, End, RunOptions};
 use wrasse_spatial::{Sym3, vec3};
+use wrasse_testing::{Page, largest, smaller};
 use wrasse_vehicle::{Vehicle, find_vehicle};
 
 fn missions_folder() -> PathBuf {
@@ -200,10 +197,8 @@ fn the_shoulder_travels_too_far_by_the_ratio_of_the_inertias() {
         M.M_jj[shoulder][shoulder] / H[shoulder][shoulder]
     };
     let ratios: Vec<f64> = (0..=20).map(|i| ratio_at(f64::from(i) / 20.0)).collect();
-    let (least, most) = (
-        ratios.iter().copied().fold(f64::INFINITY, f64::min),
-        ratios.iter().copied().fold(0.0, f64::max),
-    );
+    let least = ratios.iter().copied().fold(f64::INFINITY, smaller);
+    let most = largest(ratios.iter().copied());
     let too_far = travel / 20.0_f64.to_radians();
     assert!(least > 2.0, "the load makes it plain: {least}");
     assert!((least..=most).contains(&too_far), "{too_far} not within {least} to {most}");

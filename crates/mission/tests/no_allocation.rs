@@ -1,14 +1,13 @@
 //! The loop of a simulated run does not touch the heap: a longer run allocates no more than a short one.
 
-#[path = "../../dynamics/tests/counting_allocator/mod.rs"]
-#[allow(dead_code, reason = "shared with tests that ask more of it")]
-mod counting_allocator;
-
-use counting_allocator::allocations;
 use std::hint::black_box;
 use std::path::Path;
 use wrasse_mission::read_mission;
 use wrasse_rehearsal::{End, fly_sample, plan_samples};
+use wrasse_testing::{Counting, allocations};
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
 
 /// Calls to the allocator in a flight of a shipped mission, with these words in place of others.
 fn calls(file: &str, changes: &[(&str, &str)]) -> usize {

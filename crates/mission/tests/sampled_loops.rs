@@ -7,6 +7,7 @@ use wrasse_hardware::SetPoint;
 use wrasse_mission::read_mission;
 use wrasse_rehearsal::{Case, sampled_loops};
 use wrasse_spatial::SpatialForce;
+use wrasse_testing::largest;
 use wrasse_world::BaseAttitude;
 
 /// A client of the servicer's mass in the grip; all joints driven by torque.
@@ -48,12 +49,8 @@ fn answered(case: &Case) -> f64 {
         let found = driven_dynamics(&k, &tau.map(JointDrive::Effort), mode, &outside);
         (0..n).for_each(|i| answers[(i, j)] = found.nudot.joints[i]);
     }
-    nalgebra::Schur::try_new(answers, 1e-13, 10_000)
-        .expect("it converges")
-        .complex_eigenvalues()
-        .iter()
-        .map(|e| e.norm())
-        .fold(0.0, f64::max)
+    let schur = nalgebra::Schur::try_new(answers, 1e-13, 10_000).expect("it converges");
+    largest(schur.complex_eigenvalues().iter().map(|e| e.norm()))
 }
 
 /// Second route: the law's torques through forward dynamics. Measured: 3e-13 of it.

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use wrasse_mission::{Mission, read_mission};
 use wrasse_rehearsal::{End, RunOptions, SampleOutcome, fly_sample, plan_samples, run_case};
+use wrasse_testing::largest;
 
 fn missions() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../missions")
@@ -200,7 +201,7 @@ fn every_kind_of_dispersion_changes_what_is_flown() {
         let found = values(&mission);
         let changes =
             found.iter().zip(&nominal).map(|(x, nominal)| ((x - nominal) / nominal).abs());
-        let change = changes.fold(0.0, f64::max);
+        let change = largest(changes);
         assert!(change > 1e-4, "{quantity}: {change:e}");
     }
 }
@@ -226,8 +227,7 @@ fn sensors_err_as_it_was_drawn() {
     ] {
         let table = format!("[[disperse]]\nquantity = \"{quantity}\"\n{size}\n");
         let [blind, known] = [values(&table), values(&format!("{table}known = true\n"))];
-        let change =
-            blind.iter().zip(nominal).map(|(x, n)| ((x - n) / n).abs()).fold(0.0, f64::max);
+        let change = largest(blind.iter().zip(nominal).map(|(x, n)| ((x - n) / n).abs()));
         assert!(change > 0.005, "{quantity}: {nominal:?} and {blind:?}");
         // An estimator that knows how noisy its star tracker is trusts it less.
         if quantity.contains("star_tracker") {

@@ -227,11 +227,12 @@ fn largest_ratio(plant: &DMatrix<f64>, law: &DMatrix<f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use wrasse_testing::largest;
 
     /// Spectral radius of a 2×2 recursion.
     fn radius(m: [[f64; 2]; 2]) -> f64 {
         let matrix = nalgebra::Matrix2::from_row_slice(&m.concat());
-        matrix.complex_eigenvalues().iter().map(|e| e.norm()).fold(0.0, f64::max)
+        largest(matrix.complex_eigenvalues().iter().map(|e| e.norm()))
     }
 
     /// A double integrator under `a = -p e - d ė`, held over a period of one.
@@ -267,7 +268,7 @@ mod tests {
             let p = nalgebra::RowVector3::new(1.0, 1.0, 0.5);
             let x = nalgebra::RowVector3::new(1.0, 0.5, 1.0 / 12.0) - p * (0.5 * g + g * g / 12.0);
             let matrix = nalgebra::Matrix3::from_rows(&[x, p * -g, p * (g * g)]);
-            matrix.complex_eigenvalues().iter().map(|e| e.norm()).fold(0.0, f64::max)
+            largest(matrix.complex_eigenvalues().iter().map(|e| e.norm()))
         };
         assert!(at(0.9999 * TOOL_LIMIT) < 1.0 && at(1.0001 * TOOL_LIMIT) > 1.0);
     }

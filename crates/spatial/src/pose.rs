@@ -113,7 +113,7 @@ mod tests {
 
     #[track_caller]
     fn close(a: &[f64], b: &[f64], tolerance: f64) {
-        let worst = a.iter().zip(b).fold(0.0, |m: f64, (x, y)| m.max((x - y).abs()));
+        let worst = wrasse_testing::largest(a.iter().zip(b).map(|(x, y)| (x - y).abs()));
         assert!(worst <= tolerance, "off by {worst:e}: {a:?} {b:?}");
     }
 

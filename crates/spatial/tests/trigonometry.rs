@@ -1,6 +1,7 @@
 //! Sine and cosine against many-digit values, and lanes against single numbers.
 
 use wrasse_spatial::{Lanes, Real};
+use wrasse_testing::{larger, largest};
 
 const TABLE: &str = include_str!("../../../validation/sine_and_cosine.csv");
 
@@ -24,7 +25,7 @@ fn sine_and_cosine_are_within_one_unit_in_the_last_place() {
     let mut worst: f64 = 0.0;
     for [x, sin, sin_rest, cos, cos_rest] in rows() {
         let (s, c) = Real::sin_cos(x);
-        worst = worst.max(ulps(s, sin, sin_rest)).max(ulps(c, cos, cos_rest));
+        worst = largest([worst, ulps(s, sin, sin_rest), ulps(c, cos, cos_rest)]);
     }
     assert!(worst < 1.0, "measured 0.61: {worst}");
 }
@@ -37,8 +38,8 @@ fn single_precision_is_within_one_unit_in_the_last_place_of_one() {
         let x = 0.25 * f32::from(k);
         let (s, c) = Real::sin_cos(x);
         let (sin, cos) = Real::sin_cos(f64::from(x));
-        let off = (f64::from(s) - sin).abs().max((f64::from(c) - cos).abs());
-        worst = worst.max(off / f64::from(f32::EPSILON));
+        let off = larger((f64::from(s) - sin).abs(), (f64::from(c) - cos).abs());
+        worst = larger(worst, off / f64::from(f32::EPSILON));
     }
     assert!(worst < 1.0, "measured 0.48: {worst}");
 }

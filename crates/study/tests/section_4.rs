@@ -1,12 +1,9 @@
 //! The study of section 4: demands against the hand, verdicts against the envelopes.
 
-#[path = "../../mission/tests/figures/mod.rs"]
-mod figures;
-
-use figures::Page;
 use std::path::PathBuf;
 use std::sync::OnceLock;
 use wrasse_study::{Answer, SetKind, SetVerdict, StudyOutcome, TaskOutcome, read_study, size};
+use wrasse_testing::Page;
 
 fn path() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../studies/section-4.toml")
@@ -81,22 +78,22 @@ fn each_demand_agrees_with_its_hand_check() {
     assert_eq!(outcome.tasks.len(), 42);
     for task in outcome.tasks.iter().filter(|task| !task.name.contains("flown")) {
         let hand = task.by_hand.as_ref().unwrap_or_else(|| panic!("{} by hand", task.name));
-        let off = |found: f64, hand: f64| (found / hand - 1.0).abs();
         let (torque, momentum) =
-            (off(task.peak_torque_nm, hand.torque), off(task.peak_momentum_nms, hand.momentum));
-        let bound = if task.name.contains(", 0 kg") {
-            // Nothing but the arm, whose elbow goes its own way. Measured 0.39.
-            0.5
+            (task.peak_torque_nm / hand.torque, task.peak_momentum_nms / hand.momentum);
+        let bounds = if task.name.contains(", 0 kg") {
+            // Nothing but the arm, whose elbow goes its own way: that asks for more than a rod that is
+            // led straight, by no more than two fifths. Measured 0.994 to 1.388.
+            0.98..1.4
         } else if task.own_motion {
             // Measured 0.03.
-            0.05
+            0.95..1.05
         } else {
             // Force and lever are exact. Measured 1.2e-13.
-            1e-9
+            1.0 - 1e-11..1.0 + 1e-11
         };
         assert!(
-            torque < bound && momentum < bound,
-            "{}: torque {torque:.2e}, momentum {momentum:.2e}; {}",
+            bounds.contains(&torque) && bounds.contains(&momentum),
+            "{}: torque {torque}, momentum {momentum} of the hand's; {}",
             task.name,
             hand.how
         );

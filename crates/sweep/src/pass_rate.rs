@@ -53,6 +53,7 @@ impl PassRate {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use wrasse_testing::larger;
 
     /// Probability that of `n` samples at least `k` pass, each with probability `p`.
     fn at_least(k: usize, n: usize, p: f64) -> f64 {
@@ -78,8 +79,8 @@ mod tests {
         for (k, n) in [(1, 2), (8, 10), (3, 50), (49, 50), (490, 500), (10, 700)] {
             let rate = PassRate::of(k, n);
             let [low, high] = rate.interval.expect("it varies");
-            worst = worst.max((at_least(k, n, low) - 0.025).abs());
-            worst = worst.max((1.0 - at_least(k + 1, n, high) - 0.025).abs());
+            worst = larger(worst, (at_least(k, n, low) - 0.025).abs());
+            worst = larger(worst, (1.0 - at_least(k + 1, n, high) - 0.025).abs());
         }
         assert!(worst < 1e-12, "{worst:e}");
     }

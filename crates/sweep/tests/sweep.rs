@@ -1,12 +1,10 @@
 //! A sweep is the same in one go or in many, by one thread or by several.
 
-#[path = "../../mission/tests/figures/mod.rs"]
-mod figures;
-
 use std::fs;
 use std::path::Path;
 use wrasse_mission::{Mission, read_mission};
 use wrasse_sweep::{OwnedFolder, PassRate, Row, Sweep, SweepError, SweepOutcome};
+use wrasse_testing::{Page, larger};
 
 /// Short, with two laws to compare, a payload that is not known, and a requirement that some fail.
 const MISSION: &str = r#"
@@ -139,9 +137,9 @@ fn cases_fly_the_same_draws_and_the_findings_are_those_of_the_rows() {
     }
     let error = &exact.requirements[0];
     let values: Vec<f64> = exact.rows.iter().filter_map(|row| row.values[0]).collect();
-    let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    assert_eq!(error.values.expect("there are values").max, largest);
-    assert_eq!(error.worst[0].value, Some(largest));
+    let most = values.iter().copied().reduce(larger);
+    assert_eq!(error.values.map(|values| values.max), most);
+    assert_eq!(error.worst[0].value, most);
     assert_eq!(error.worst.len(), 5);
     let worst = error.worst[0].sample;
     assert_eq!(error.worst[0].command, format!("wrasse run quick.toml --sample {worst} --seed 11"));
@@ -335,7 +333,7 @@ fn the_values_flown_stand_beside_their_deviations() {
     assert_eq!((mass.quantity.as_str(), mass.unit.as_str()), ("payload.module.mass_kg", "kg"));
     assert_eq!(mass.nominal, 200.0);
     let flown = case.rows.iter().map(|row| 200.0 + row.deviations[0]);
-    assert_eq!(mass.largest, flown.reduce(f64::max));
+    assert_eq!(mass.largest, flown.reduce(larger));
     let worst = &case.requirements[0].worst[0];
     let row = case.rows.iter().find(|row| row.sample == worst.sample).expect("it was flown");
     assert_eq!(worst.drawn[0].flown, 200.0 + row.deviations[0]);
@@ -347,7 +345,7 @@ fn the_guide_says_how_many_samples_show_a_pass_rate() {
     let sure = |of: usize| PassRate::of(of, of).sure;
     // The fewest that reach it.
     assert!(sure(367) < 0.99 && sure(368) >= 0.99);
-    let mut page = figures::Page::open("book/src/guide/sweeps.md");
+    let mut page = Page::open("book/src/guide/sweeps.md");
     page.says("All of 300 samples passing shows {}; all of 368 shows {}.", &[sure(300), sure(368)]);
     page.holds();
 }

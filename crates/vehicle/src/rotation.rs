@@ -56,13 +56,14 @@ pub(crate) fn sin_cos(deg: f64) -> (f64, f64) {
 mod tests {
     use super::*;
     use wrasse_spatial::Quat;
+    use wrasse_testing::largest;
 
     #[test]
     fn degrees_turn_as_the_same_angles_in_radians_do() {
         let rpy = [12.0, -75.0, 211.0];
         let by_radians = from_roll_pitch_yaw(Vec3::from_array(rpy.map(f64::to_radians)));
         let off = (from_rpy_deg(rpy) - by_radians).rows.map(Vec3::norm);
-        let off = off.into_iter().fold(0.0, f64::max);
+        let off = largest(off);
         assert!(off < 4.0 * f64::EPSILON, "measured 0: {off:e}");
     }
 
@@ -81,7 +82,7 @@ mod tests {
         let turn = |a| Quat::exp(a).to_matrix();
         let by_turns = turn(vec3(0.0, 0.0, y)) * turn(vec3(0.0, p, 0.0)) * turn(vec3(r, 0.0, 0.0));
         let R = from_roll_pitch_yaw(vec3(r, p, y));
-        let off = (R - by_turns).rows.map(Vec3::norm).into_iter().fold(0.0, f64::max);
+        let off = largest((R - by_turns).rows.map(Vec3::norm));
         assert!(off < 4.0 * f64::EPSILON, "{off:e}");
     }
 }

@@ -6,6 +6,7 @@ use std::path::Path;
 use wrasse_document::{Severity, render};
 use wrasse_dynamics::{BodyId, State, generalized_jacobian, jacobian, kinematics, mass_matrix};
 use wrasse_spatial::{At, Vec3};
+use wrasse_testing::larger;
 use wrasse_vehicle::{JOINTS, NoVehicle, Vehicle, catalogue, find_vehicle, read_vehicle};
 
 fn vehicle(name: &str) -> Vehicle {
@@ -21,8 +22,8 @@ fn difference(a: &Vehicle, b: &Vehicle) -> f64 {
     assert_eq!(a.joint_names, b.joint_names);
     let mut worst: f64 = 0.0;
     let mut compare = |x: f64, y: f64| {
-        let scale = x.abs().max(y.abs());
-        worst = worst.max(if scale > 0.0 { (x - y).abs() / scale } else { 0.0 });
+        let scale = larger(x.abs(), y.abs());
+        worst = larger(worst, if scale > 0.0 { (x - y).abs() / scale } else { 0.0 });
     };
     for j in a.robot.joints() {
         let (a, b) = (a.robot.joint(j), b.robot.joint(j));

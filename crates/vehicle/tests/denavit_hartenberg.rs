@@ -4,6 +4,7 @@
 
 use wrasse_dynamics::{State, kinematics};
 use wrasse_spatial::Vec3;
+use wrasse_testing::larger;
 use wrasse_vehicle::{JOINTS, Vehicle, read_vehicle};
 
 type Matrix = [[f64; 4]; 4];
@@ -79,7 +80,7 @@ fn deviation(convention: &str, textbook: impl Fn([f64; 4]) -> Matrix) -> f64 {
         let (rows, p) = (X.rotation.rows.map(Vec3::to_array), X.translation.to_array());
         for r in 0..3 {
             for (found, expected) in rows[r].iter().chain([&p[r]]).zip(expected[r]) {
-                worst = worst.max((found - expected).abs());
+                worst = larger(worst, (found - expected).abs());
             }
         }
     }

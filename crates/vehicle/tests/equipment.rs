@@ -3,6 +3,7 @@
 use wrasse_document::{Document, Step, at, render};
 use wrasse_hardware::{ControlMomentGyro, Thruster};
 use wrasse_spatial::{Real, Vec3, vec3};
+use wrasse_testing::larger;
 use wrasse_vehicle::{
     Equipment, EquipmentFile, Grade, Vehicle, hardware, read_equipment, read_vehicle,
 };
@@ -155,7 +156,7 @@ fn the_momentum_of_a_pyramid_is_that_of_its_closed_form() {
         let [(s1, c1), (s2, c2), (s3, c3), (s4, c4)] = angles.map(Real::sin_cos);
         let expected =
             vec3(-c * s1 - c2 + c * s3 + c4, c1 - c * s2 - c3 + c * s4, s * (s1 + s2 + s3 + s4));
-        worst = worst.max((momentum(&pyramid, &angles) - expected).norm());
+        worst = larger(worst, (momentum(&pyramid, &angles) - expected).norm());
     }
     // A few roundings of numbers of the order of one.
     assert!(worst < 2e-15, "measured 4.4e-16: {worst:e}");

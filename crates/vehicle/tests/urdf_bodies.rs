@@ -2,6 +2,7 @@
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
 use wrasse_dynamics::BodyId;
+use wrasse_testing::largest;
 use wrasse_vehicle::{ShapeKind, Vehicle, read_vehicle};
 
 const BALL: &str = "<inertial><mass value=\"2\"/><inertia ixx=\"0.1\" ixy=\"0\" ixz=\"0\" \
@@ -32,7 +33,7 @@ fn joint(name: &str, kind: &str, parent: &str, child: &str, origin: &str) -> Str
 fn difference(a: &Vehicle, b: &Vehicle, body: BodyId) -> f64 {
     let (a, b) = (a.robot.inertia(body).to_matrix(), b.robot.inertia(body).to_matrix());
     let pairs = a.as_flattened().iter().zip(b.as_flattened());
-    pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max)
+    largest(pairs.map(|(x, y)| (x - y).abs()))
 }
 
 #[test]

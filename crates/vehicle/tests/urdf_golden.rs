@@ -4,6 +4,7 @@
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use wrasse_dynamics::{BodyId, State, kinematics, mass_matrix};
+use wrasse_testing::larger;
 use wrasse_vehicle::{JOINTS, Vehicle, read_vehicle};
 
 fn golden(name: &str) -> PathBuf {
@@ -55,7 +56,7 @@ fn mass_matrices_of_the_robots_as_read_agree_with_pinocchio() {
         assert_eq!(states.len(), 4);
         for (state, result) in states.iter().zip(results) {
             let M = dense_mass_matrix(&vehicle, &state["joints"]);
-            largest = largest.max(relative_difference(&M, &result["mass_matrix"]));
+            largest = larger(largest, relative_difference(&M, &result["mass_matrix"]));
         }
     }
     // Sums of a few hundred products, each off by ε = 2e-16 of the largest.
@@ -94,8 +95,8 @@ fn relative_difference(M: &[Vec<f64>], expected: &Value) -> f64 {
     for (i, row) in M.iter().enumerate() {
         for (k, &found) in row.iter().enumerate() {
             let wanted = expected[i][k].as_f64().expect("a number");
-            off = off.max((found - wanted).abs());
-            scale = scale.max(wanted.abs());
+            off = larger(off, (found - wanted).abs());
+            scale = larger(scale, wanted.abs());
         }
     }
     off / scale

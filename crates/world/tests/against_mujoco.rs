@@ -7,9 +7,10 @@ use std::path::{Path, PathBuf};
 use wrasse_dynamics::State;
 use wrasse_hardware::ActuatorCommand;
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Vec3};
-use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_testing::largest;
 use wrasse_vehicle::{JOINTS, Vehicle, read_vehicle};
 use wrasse_world::{BaseAttitude, Drive, Equipment, Stepper};
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 fn validation() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation")
@@ -46,7 +47,7 @@ fn difference(a: &State<f64, JOINTS>, b: &State<f64, JOINTS>) -> f64 {
     let shift = (a.X_NB.translation - b.X_NB.translation).norm();
     let twist = (a.V_NB_B - b.V_NB_B).to_array();
     let joints = a.q.iter().zip(&b.q).chain(a.v.iter().zip(&b.v)).map(|(x, y)| x - y);
-    twist.into_iter().chain(joints).fold(turn.max(shift), |m, x| m.max(x.abs()))
+    largest(twist.into_iter().chain(joints).chain([turn, shift]).map(f64::abs))
 }
 
 /// MuJoCo's own error at its finest step is about a fifteenth of the last spread that the data name

@@ -7,8 +7,9 @@ use branched::{J, moving, robot};
 use wrasse_dynamics::State;
 use wrasse_hardware::{ActuatorCommand, AttitudeActuator, SetPointMotion};
 use wrasse_spatial::{SpatialVelocity, Vec3, vec3};
-use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_testing::{larger, largest};
 use wrasse_world::{BaseAttitude, Drive, Equipment, Ledger, Saturation, Source, Stepper};
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 /// Control period (s).
 const PERIOD: f64 = 0.01;
@@ -49,7 +50,7 @@ fn fly(world: &mut OneSystem<J>, torque_B: Vec3<f64>, time: f64) -> (Ledger, f64
         world.advance(PERIOD).expect("stays finite");
         world.update_ledger(&mut ledger);
         let stored = world.stored_momentum_B().to_array();
-        fullest = stored.iter().fold(fullest, |most, h| most.max(h.abs()));
+        fullest = larger(fullest, largest(stored.iter().map(|h| h.abs())));
         left -= 1.0;
     }
     (ledger, fullest)

@@ -7,8 +7,8 @@ use branched::{J, load, moving, robot};
 use wrasse_dynamics::{BodyId, PerBody, Robot};
 use wrasse_hardware::{ActuatorCommand, AttitudeActuator, JointLimits};
 use wrasse_spatial::{Pose, SpatialForce, SpatialVelocity, Vec3, vec3};
-use wrasse_testing::{OneSystem, OneSystemSetup};
 use wrasse_world::{BaseAttitude, Drive, Equipment, FreeBody, Instant, NonFinite, Stepper};
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 const STEPPERS: [Stepper; 2] =
     [Stepper::Fixed { step: 0.01 }, Stepper::Adaptive { tolerance: 1e-9 }];

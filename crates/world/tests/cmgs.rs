@@ -8,8 +8,9 @@ use equipped::{block, cmg, turning_block};
 use wrasse_dynamics::{BodyId, Joint, JointKind, MassProperties, Robot, State};
 use wrasse_hardware::{ActuatorCommand, CMGS, ControlMomentGyro, List, SetPoint, SetPointMotion};
 use wrasse_spatial::{Mat3, Pose, SpatialVelocity, Sym3, Vec3, vec3};
-use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_testing::larger;
 use wrasse_world::{BaseAttitude, Drive, Equipment, Failure, Saturation, Stepper};
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 const PERIOD: f64 = 0.01;
 
@@ -253,10 +254,10 @@ fn apart(odd: f64) -> (f64, f64) {
         links.command(&drives, Vec3::zero(), &ActuatorCommand::default(), period);
         links.advance(period).expect("stays finite");
         let (full, found) = (links.state().V_NB_B.angular, equipment.state().V_NB_B.angular);
-        worst = worst.max((full - found).norm() / found.norm());
+        worst = larger(worst, (full - found).norm() / found.norm());
         let (torques, force) = (equipment.gimbal_motor_torque(), links.dynamics().force.joints);
-        let off = (force[0] - torques[0]).abs().max((force[2] - torques[1]).abs());
-        worst_torque = worst_torque.max(off / torques[0].abs().max(torques[1].abs()));
+        let off = larger((force[0] - torques[0]).abs(), (force[2] - torques[1]).abs());
+        worst_torque = larger(worst_torque, off / larger(torques[0].abs(), torques[1].abs()));
     }
     (worst, worst_torque)
 }

@@ -7,8 +7,9 @@ use atlas_class::{J, coasting, cube, tool, unladen};
 use wrasse_dynamics::{Frame, MassProperties};
 use wrasse_hardware::ActuatorCommand;
 use wrasse_spatial::Vec3;
-use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_testing::larger;
 use wrasse_world::{BaseAttitude, Drive, Equipment, Stepper};
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 /// Drift over the coast: angular and linear momentum relative to the sum of the bodies' absolute
 /// momenta, centre of mass relative to the distance gone, energy relative to itself.
@@ -43,11 +44,11 @@ fn drift(stepper: Stepper) -> [f64; 4] {
         world.update_ledger(&mut ledger);
         let gone = velocity * f64::from(second + 1);
         let off = ledger.now.centre_of_mass - ledger.start.centre_of_mass - gone;
-        worst_cm = worst_cm.max(off.norm() / gone.norm());
-        worst_energy = worst_energy.max((ledger.now.energy / ledger.start.energy - 1.0).abs());
+        worst_cm = larger(worst_cm, off.norm() / gone.norm());
+        worst_energy = larger(worst_energy, (ledger.now.energy / ledger.start.energy - 1.0).abs());
         let [angular, linear, _] = ledger.residuals();
-        worst[0] = worst[0].max(angular / ledger.now.angular_scale);
-        worst[1] = worst[1].max(linear / ledger.now.linear_scale);
+        worst[0] = larger(worst[0], angular / ledger.now.angular_scale);
+        worst[1] = larger(worst[1], linear / ledger.now.linear_scale);
     }
     [worst[0], worst[1], worst_cm, worst_energy]
 }

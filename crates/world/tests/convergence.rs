@@ -9,8 +9,8 @@ use branched::{J, moving};
 use wrasse_dynamics::{BodyId, PerBody, State};
 use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::{Quat, SpatialForce, Vec3, vec3};
-use wrasse_testing::{OneSystem, OneSystemSetup};
 use wrasse_world::{Account, BaseAttitude, Course, Drive, Equipment, Instant, Stepper};
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 /// What a run ends with: where, how fast, and the momentum and energy summed over the bodies.
 struct End<const J: usize> {

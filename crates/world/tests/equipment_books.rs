@@ -10,11 +10,12 @@ use equipped::{busy, everything};
 use wrasse_dynamics::{BodyId, Frame, MassProperties, PerBody, Robot, State};
 use wrasse_hardware::List;
 use wrasse_spatial::{Pose, SpatialForce, SpatialVelocity, Vec3, vec3};
-use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_testing::largest;
 use wrasse_world::{
     Account, BaseAttitude, Drive, Equipment, Failure, FreeBody, GripOffset, Instant, Ledger,
     Source, Stepper,
 };
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 const EFFORTS: [f64; J] = [0.9, -0.5, 0.7, -0.3];
 const PERIOD: f64 = 0.05;
@@ -176,7 +177,7 @@ fn a_jam_shakes_joints_as_an_impulse_on_the_base_does() {
     let after = world.state();
     world.update_ledger(&mut ledger);
     let [angular, linear, energy] = ledger.residuals();
-    let jump = (0..J).fold(0.0_f64, |m, j| m.max((after.v[j] - before.v[j]).abs()));
+    let jump = largest((0..J).map(|j| (after.v[j] - before.v[j]).abs()));
     assert!(jump > 0.01, "{jump}");
     assert!(angular < 1e-13 && linear < 1e-13 && energy < 1e-10, "{angular:e} {energy:e}");
 }

@@ -9,11 +9,11 @@ use nalgebra::{DMatrix, SymmetricEigen};
 use wrasse_dynamics::{Generalized, State, free_floating_dynamics, kinematics, mass_matrix};
 use wrasse_hardware::ActuatorCommand;
 use wrasse_spatial::{SpatialForce, Vec3};
-use wrasse_testing::{OneSystem, OneSystemSetup};
 use wrasse_world::{
     BaseAttitude, Drive, Equipment, FlexibleJoint, FlexibleJoints, JointSpring, PassiveJoints,
     Source, Stepper,
 };
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 const Q: [f64; J] = [0.3, -0.2, 0.4, 0.1];
 

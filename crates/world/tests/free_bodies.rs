@@ -4,8 +4,8 @@
 use wrasse_dynamics::{MassProperties, PerBody, Robot, State};
 use wrasse_hardware::ActuatorCommand;
 use wrasse_spatial::{Mat3, Pose, Quat, SpatialForce, SpatialVelocity, Sym3, Vec3, vec3};
-use wrasse_testing::{OneSystem, OneSystemSetup};
 use wrasse_world::{BaseAttitude, Equipment, FreeBody, Instant, Source, Stepper};
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 /// Where the bodies are at the start: in no special place.
 fn X_NT() -> Pose<f64> {

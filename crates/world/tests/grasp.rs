@@ -12,11 +12,12 @@ use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::{
     At, Pose, Quat, SpatialForce, SpatialInertia, SpatialVelocity, Sym3, Vec3, vec3,
 };
-use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_testing::{larger, largest};
 use wrasse_world::{
     Account, BaseAttitude, Drive, Equipment, FreeBody, GraspRefused, GripOffset, Ledger, Source,
     Stepper,
 };
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 /// Largest relative twist that is accepted, where a test does not ask for another (rad/s, m/s).
 const BOUNDS: (f64, f64) = (1.0, 1.0);
@@ -105,24 +106,24 @@ fn in_the_grip(world: &OneSystem<J>, frame: &Frame<f64>, w: Vec3<f64>, v: Vec3<f
 fn momentum_apart(a: &Account, b: &Account) -> f64 {
     let linear = (a.linear - b.linear).norm() / a.linear_scale;
     let angular = (a.angular - b.angular).norm() / a.angular_scale;
-    linear.max(angular)
+    larger(linear, angular)
 }
 
 /// Largest difference of all poses and joint positions (rad or –, m).
 fn place_apart(a: &State<f64, J>, b: &State<f64, J>) -> f64 {
     let rotation = a.X_NB.rotation - b.X_NB.rotation;
-    let mut largest = (a.X_NB.translation - b.X_NB.translation).norm();
+    let mut farthest = (a.X_NB.translation - b.X_NB.translation).norm();
     for row in rotation.rows {
-        largest = largest.max(row.norm());
+        farthest = larger(farthest, row.norm());
     }
-    (0..J).fold(largest, |m, j| m.max((a.q[j] - b.q[j]).abs()))
+    larger(farthest, largest((0..J).map(|j| (a.q[j] - b.q[j]).abs())))
 }
 
 /// Largest difference of the base's twist and the joint rates.
 fn motion_apart(a: &State<f64, J>, b: &State<f64, J>) -> f64 {
     let V = (a.V_NB_B - b.V_NB_B).to_array();
     let rates = (0..J).map(|j| a.v[j] - b.v[j]);
-    V.into_iter().chain(rates).fold(0.0, |m, x| m.max(x.abs()))
+    largest(V.into_iter().chain(rates).map(f64::abs))
 }
 
 /// Relative velocity that the grip has to swallow in these tests (rad/s, m/s).
@@ -257,7 +258,7 @@ fn a_grasp_above_its_bounds_is_refused_with_the_numbers_and_changes_nothing() {
     for (angular, linear) in [(0.99 * w, 1.0), (1.0, 0.99 * v), (0.0, 0.0)] {
         let bounds = moving_at_most(angular, linear);
         let GraspRefused(refused) = world.grasp(&grip(), i, &bounds).expect_err("too fast");
-        let off = (refused.angular_speed - w).abs().max((refused.linear_speed - v).abs());
+        let off = larger((refused.angular_speed - w).abs(), (refused.linear_speed - v).abs());
         // Measured: 3e-17.
         assert!(off < 1e-15, "speeds {refused:?}, expected {w} rad/s and {v} m/s");
     }

@@ -6,8 +6,8 @@ mod branched;
 use branched::{J, moving, robot};
 use wrasse_hardware::{ActuatorCommand, JointLimits, SetPointMotion};
 use wrasse_spatial::Vec3;
-use wrasse_testing::{OneSystem, OneSystemSetup};
 use wrasse_world::{BaseAttitude, Drive, Equipment, Saturation, Stepper};
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 /// Joints 0 and 1 give at most 2 and 0.5 (N·m, N); the others are not limited.
 fn world() -> OneSystem<J> {

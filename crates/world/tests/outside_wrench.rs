@@ -3,8 +3,8 @@
 use wrasse_dynamics::{BodyId, Frame, MassProperties, PerBody, Robot, State};
 use wrasse_hardware::ActuatorCommand;
 use wrasse_spatial::{Pose, SpatialForce, Sym3, Vec3, vec3};
-use wrasse_testing::{OneSystem, OneSystemSetup};
 use wrasse_world::{BaseAttitude, Equipment, Instant, Stepper};
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 /// 10 N from 0.203 s for 4 ms, and again from 0.5 s to 0.6 s where steps end anyway.
 fn pushed(stepper: Stepper, told: bool) -> (OneSystem<1>, wrasse_world::Ledger) {

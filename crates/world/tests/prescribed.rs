@@ -8,8 +8,9 @@ use branched::{J, moving};
 use wrasse_dynamics::{Dynamics, Generalized, PerBody, State, inverse_dynamics, kinematics};
 use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::{SpatialForce, SpatialVelocity, Vec3};
-use wrasse_testing::OneSystem;
+use wrasse_testing::largest;
 use wrasse_world::{BaseAttitude, Drive, Source};
+use wrasse_world_testing::OneSystem;
 
 /// Control period (s).
 const PERIOD: f64 = 0.01;
@@ -127,7 +128,7 @@ fn the_forces_found_are_those_that_the_flown_motion_takes() {
         let k = kinematics(&robot, &state);
         let nudot = Generalized { base: base_rate, joints: found.nudot.joints };
         let taken = inverse_dynamics(&k, &nudot, &PerBody::filled(SpatialForce::zero())).force;
-        let worst = |a: &[f64]| a.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let worst = |a: &[f64]| largest(a.iter().map(|x| x.abs()));
         let rates = worst(&(base_rate - found.nudot.base).to_array());
         let forces =
             worst(&core::array::from_fn::<_, J, _>(|j| taken.joints[j] - found.force.joints[j]));
@@ -163,7 +164,7 @@ fn followed_and_driven(base: BaseAttitude, period: f64) -> f64 {
         k += 1.0;
     }
     let (a, b) = (following.state(), driven.state());
-    (0..J).map(|j| (a.q[j] - b.q[j]).abs()).fold(0.0, f64::max)
+    largest((0..J).map(|j| (a.q[j] - b.q[j]).abs()))
 }
 
 /// A force that is constant over a period is wrong by its curvature: the difference falls with the

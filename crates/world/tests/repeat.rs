@@ -7,8 +7,9 @@ use branched::{J, moving};
 use wrasse_dynamics::{BodyId, PerBody, State};
 use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::{SpatialForce, Vec3, vec3};
-use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_testing::largest;
 use wrasse_world::{BaseAttitude, Drive, Equipment, Instant, Ledger, Stepper};
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 /// Length of a control period, and of the steps in it (s): powers of two, so that parts of the
 /// period add up to it exactly.
@@ -99,7 +100,7 @@ fn a_period_in_parts_of_other_steps_is_the_same_motion() {
     for stepper in [Stepper::Fixed { step: 1e-3 }, Stepper::Adaptive { tolerance: 1e-12 }] {
         let parts = flown(stepper, 3).0;
         let apart = (0..J).fold(0.0_f64, |m, j| {
-            m.max((parts.q[j] - whole.q[j]).abs()).max((parts.v[j] - whole.v[j]).abs())
+            largest([m, (parts.q[j] - whole.q[j]).abs(), (parts.v[j] - whole.v[j]).abs()])
         });
         assert!(apart < 1e-11, "joints {apart:e} apart");
     }

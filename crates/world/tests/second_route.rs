@@ -10,6 +10,7 @@ use wrasse_dynamics::{
 };
 use wrasse_hardware::ActuatorCommand;
 use wrasse_spatial::{Pose, Quat, SpatialForce, SpatialVelocity, Vec3};
+use wrasse_testing::largest;
 use wrasse_world::{BaseAttitude, Drive};
 
 const EFFORTS: [f64; J] = [0.9, -0.5, 0.7, -0.3];
@@ -96,8 +97,7 @@ const QUANTITIES: [&str; 6] =
 
 fn differences(a: &State<f64, J>, b: &State<f64, J>) -> [f64; 6] {
     let turn = Quat::from_matrix(&(a.X_NB.rotation.transpose() * b.X_NB.rotation)).log();
-    let joints =
-        |a: [f64; J], b: [f64; J]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let joints = |a: [f64; J], b: [f64; J]| largest(a.iter().zip(b).map(|(a, b)| (a - b).abs()));
     [
         turn.norm(),
         (a.X_NB.translation - b.X_NB.translation).norm(),

@@ -4,6 +4,7 @@
 
 use wrasse_hardware::{RateGyro, Sensors, StarTracker};
 use wrasse_spatial::{Quat, Vec3, vec3};
+use wrasse_testing::larger;
 use wrasse_world::{SensorReadings, SensorSuite};
 
 const PERIOD: f64 = 0.1;
@@ -172,7 +173,7 @@ fn a_reading_shows_the_attitude_as_it_was_a_latency_ago() {
         for (k, reading) in said.iter().enumerate() {
             let Some(seen) = reading.tracker else { continue };
             let then = attitude(turning(), k as f64 * PERIOD - latency);
-            worst = worst.max((then.conjugate() * seen.quat_NB).log().norm());
+            worst = larger(worst, (then.conjugate() * seen.quat_NB).log().norm());
             assert_eq!(seen.age, latency);
         }
         assert!(worst < 1e-15, "latency {latency} s: off by {worst:e} rad");

@@ -7,8 +7,9 @@ use equipped::{block, thruster, turning_block};
 use wrasse_dynamics::{Robot, State};
 use wrasse_hardware::{ActuatorCommand, List, STANDARD_GRAVITY, Tank, Thruster};
 use wrasse_spatial::{Sym3, Vec3, vec3};
-use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_testing::largest;
 use wrasse_world::{Booking, Equipment, Failure, Saturation, Source, Stepper};
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 const PERIOD: f64 = 0.1;
 
@@ -120,7 +121,7 @@ fn steps_keep_their_order_over_the_bends_of_the_force() {
     let fine = flown(1e-4);
     let error = |step: f64| {
         let d: State<f64, 1> = flown(step);
-        (d.V_NB_B - fine.V_NB_B).to_array().iter().fold(0.0_f64, |m, x| m.max(x.abs()))
+        largest((d.V_NB_B - fine.V_NB_B).to_array().iter().map(|x| x.abs()))
     };
     let (coarse, finer) = (error(0.02), error(0.005));
     let order = (coarse / finer).log2() / 2.0;
@@ -183,7 +184,7 @@ fn the_noise_of_pulses_has_its_deviation_and_comes_from_the_seed() {
     // pulse: the others stay, but for the rounding of the larger sum.)
     let beside = pulses(7, 0);
     let off = (0..2000).filter(|i| i % 3 != 0).map(|i| (beside[i] - gains[i]).abs());
-    let off = off.fold(0.0_f64, f64::max);
+    let off = largest(off);
     assert!(off < 1e-10, "{off:e}");
 }
 

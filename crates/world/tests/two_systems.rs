@@ -9,6 +9,7 @@ use branched::{J, moving, robot};
 use wrasse_dynamics::{BodyId, Frame, JointKind, MassProperties, State};
 use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Sym3, Vec3, vec3};
+use wrasse_testing::larger;
 use wrasse_world::{
     BaseAttitude, Bushing, Drive, Equipment, FreeBody, Scene, Source, Stepper, SystemId,
     SystemSetup,
@@ -154,13 +155,13 @@ fn two_systems_on_a_bushing_keep_their_momentum_to_rounding() {
         scene.advance(0.1).expect("stays finite");
         scene.update_ledger(&mut ledger);
         let (l, a) = scene.momentum(servicer);
-        linear = linear.max((l - at_start.0).norm());
-        angular = angular.max((a - at_start.1).norm());
+        linear = larger(linear, (l - at_start.0).norm());
+        angular = larger(angular, (a - at_start.1).norm());
     }
     let [lost_angular, lost_linear, _] = ledger.worst;
     assert!(angular > 1.0 && linear > 1.0, "nothing was exchanged: {angular} {linear}");
-    assert!(lost_angular <= (1e-14 * angular).max(1e-15 * ledger.scale[0]), "{lost_angular:e}");
-    assert!(lost_linear <= (1e-14 * linear).max(1e-15 * ledger.scale[1]), "{lost_linear:e}");
+    assert!(lost_angular <= larger(1e-14 * angular, 1e-15 * ledger.scale[0]), "{lost_angular:e}");
+    assert!(lost_linear <= larger(1e-14 * linear, 1e-15 * ledger.scale[1]), "{lost_linear:e}");
 }
 
 /// Kinetic energy, what the bushing has taken and the ledger agree; the damper has dissipated.

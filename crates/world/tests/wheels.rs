@@ -8,8 +8,9 @@ use equipped::{block, turning_block, wheel};
 use wrasse_dynamics::{BodyId, Joint, JointKind, MassProperties, Robot, State};
 use wrasse_hardware::{ActuatorCommand, List, ReactionWheel, WHEELS};
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Sym3, Vec3, vec3};
-use wrasse_testing::{OneSystem, OneSystemSetup};
+use wrasse_testing::largest;
 use wrasse_world::{BaseAttitude, Drive, Equipment, Failure, Saturation, Stepper};
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 const PERIOD: f64 = 0.01;
 
@@ -137,7 +138,7 @@ fn as_wheels(step: f64) -> OneSystem<1> {
 fn accelerations_are_those_of_a_multibody_with_rotors() {
     let (links, wheels) = (as_links(1e-2), as_wheels(1e-2));
     let (full, found) = (links.dynamics().nudot, wheels.dynamics().nudot);
-    let off = (full.base - found.base).to_array().iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let off = largest((full.base - found.base).to_array().iter().map(|x| x.abs()));
     let off_arm = (full.joints[0] - found.joints[0]).abs();
     assert!(off < 1e-12 && off_arm < 1e-12, "{off:e} {off_arm:e}");
 }
@@ -150,11 +151,11 @@ fn the_motion_is_that_of_a_multibody_with_rotors() {
     links.advance(2.0).expect("stays finite");
     wheels.advance(2.0).expect("stays finite");
     let (full, found) = (links.state(), wheels.state());
-    let off = (full.V_NB_B - found.V_NB_B).to_array().iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let off = largest((full.V_NB_B - found.V_NB_B).to_array().iter().map(|x| x.abs()));
     let off_place = (full.X_NB.translation - found.X_NB.translation).norm();
     let off_arm = (full.v[0] - found.v[0]).abs();
     let speeds = wheels.actuator_readings().wheel_speed;
-    let off_speed = (0..3).fold(0.0_f64, |m, i| m.max((full.v[1 + i] - speeds[i]).abs()));
+    let off_speed = largest((0..3).map(|i| (full.v[1 + i] - speeds[i]).abs()));
     assert!(
         off < 1e-13 && off_place < 1e-13 && off_arm < 1e-13,
         "{off:e} {off_place:e} {off_arm:e}"

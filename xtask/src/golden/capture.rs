@@ -11,9 +11,9 @@ use wrasse_dynamics::{
 };
 use wrasse_hardware::{ActuatorCommand, SetPoint, SetPointMotion};
 use wrasse_spatial::{SpatialForce, Sym3, Vec3};
-use wrasse_testing::{OneSystem, OneSystemSetup};
 use wrasse_vehicle::{JOINTS, Vehicle};
 use wrasse_world::{BaseAttitude, Drive, Equipment, FreeBody, GripOffset, Stepper};
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 /// States may be off by this where a motion was integrated.
 const MOTION: Bound = Bound { relative: 1e-8, absolute: 1e-12 };

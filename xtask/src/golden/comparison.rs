@@ -163,9 +163,9 @@ impl Walk<'_> {
 
     fn note(&mut self, expected: &[f64], found: &[f64]) {
         let Bound { relative, absolute } = self.tolerances.bound(&self.path);
-        let largest = expected.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let largest = expected.iter().map(|x| x.abs()).fold(0.0, worse);
         let deviation = expected.iter().zip(found).map(|(a, b)| (a - b).abs()).fold(0.0, worse);
-        let allowed = absolute.max(relative * largest);
+        let allowed = worse(absolute, relative * largest);
         let path = self.place();
         self.outcome.quantities.push(Quantity { path, deviation, allowed });
     }

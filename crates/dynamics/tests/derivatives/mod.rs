@@ -8,6 +8,7 @@ use wrasse_dynamics::{
     kinematics,
 };
 use wrasse_spatial::{SpatialForce, SpatialVelocity};
+use wrasse_testing::larger;
 
 /// Asked of every matrix, relative to its largest element: the numbers carry 17 digits, and a
 /// matrix of condition 1e4 is inverted. Measured 1e-13 at most (accelerations by velocities).
@@ -24,8 +25,8 @@ fn agree(what: &str, element: impl Fn(usize, usize) -> f64, expected: &Value) {
         for (j, x) in row.iter().enumerate() {
             let (found, x) = (element(i, j), x.as_f64().unwrap());
             assert!(found.is_finite(), "{what}: {found} in row {i}, column {j}");
-            largest = largest.max(x.abs());
-            worst = worst.max((found - x).abs());
+            largest = larger(largest, x.abs());
+            worst = larger(worst, (found - x).abs());
         }
     }
     println!("{what}: {:.1e} of the largest element", worst / largest);

@@ -1,14 +1,15 @@
 //! Barycentric vectors and the virtual manipulator: eqs (6) and (7), and their tree form.
 
 use crate::in_time::{Rate, in_time};
-use crate::measure::{any_robot, for_every, for_every_robot, gap_at, size};
-use crate::random_robot::{JOINTS, Recipe};
+use crate::measure::{any_robot, for_every, for_every_robot};
 use proptest::prelude::Strategy;
 use wrasse_dynamics::{
     BodyId, Frame, JointKind, Kinematics, attitude_held_jacobian, barycentric_vectors, jacobian,
     kinematics, mass_matrix, virtual_manipulator,
 };
 use wrasse_spatial::{At, Dual, Pose, Vec3};
+use wrasse_testing::random_robot::{JOINTS, Recipe};
+use wrasse_testing::{gap_at, largest, size};
 
 /// Trees whose joints only turn.
 fn turning() -> impl Strategy<Value = Recipe> {
@@ -86,7 +87,7 @@ fn the_vectors_do_not_change_while_joints_turn() {
         let moving = in_time(&s.state, &s.nudot);
         let frame = Frame { body: s.frame.body, X_BF: Pose::from_f64(&s.frame.X_BF) };
         let lambda = barycentric_vectors(&kinematics(&robot, &moving), &frame);
-        s.robot.bodies().fold(0.0, |m: f64, body| m.max(size(&lambda[body].rate())))
+        largest(s.robot.bodies().map(|body| size(&lambda[body].rate())))
     });
 }
 
@@ -100,7 +101,7 @@ fn travel_of_a_sliding_joint_changes_its_parents_vector_only() {
         let frame = Frame { body: s.frame.body, X_BF: Pose::from_f64(&s.frame.X_BF) };
         let lambda = barycentric_vectors(&kinematics(&robot, &moving), &frame);
         let behind = |b: BodyId, j: usize| s.robot.path_to_base(b).any(|at| at == j);
-        s.robot.bodies().fold(0.0, |worst: f64, body| {
+        largest(s.robot.bodies().map(|body| {
             let mut expected = Vec3::zero();
             for j in s.robot.joints() {
                 let joint = s.robot.joint(j);
@@ -113,8 +114,8 @@ fn travel_of_a_sliding_joint_changes_its_parents_vector_only() {
                 let along = joint.X_PB_zero.rotation * joint.axis_B * s.state.v[j];
                 expected += along * (way - mass / s.robot.mass());
             }
-            worst.max(gap_at(&lambda[body].rate(), &expected, 1.0))
-        })
+            gap_at(&lambda[body].rate(), &expected, 1.0)
+        }))
     });
 }
 
@@ -130,12 +131,12 @@ fn the_attitude_held_jacobian_turns_the_vectors_behind_each_joint() {
             &mass_matrix(&k),
             &s.state.X_NB.rotation,
         );
-        s.robot.joints().fold(0.0, |worst: f64, j| {
+        largest(s.robot.joints().map(|j| {
             let z = k.X_NB(BodyId::Link(j)).rotation * s.robot.joint(j).axis_B;
             let behind = s.robot.bodies().filter(|b| s.robot.path_to_base(*b).any(|at| at == j));
             let arm = behind.fold(Vec3::zero(), |sum, b| sum + k.X_NB(b).rotation * lambda[b]);
-            worst.max(gap_at(&held.linear.at(j), &z.cross(arm), 1.0))
-        })
+            gap_at(&held.linear.at(j), &z.cross(arm), 1.0)
+        }))
     });
 }
 

@@ -1,9 +1,6 @@
 //! The same robot told differently: with a load, with an empty link, in single precision, again.
 
-use crate::measure::{
-    Numbers, any_robot, dense, dense_vector, for_every, for_every_robot, gap, gap_at, size,
-};
-use crate::random_robot::{JOINTS, Recipe, Scene};
+use crate::measure::{any_robot, dense, dense_vector, for_every, for_every_robot};
 use proptest::prelude::Strategy;
 use std::array;
 use wrasse_dynamics::{
@@ -13,6 +10,8 @@ use wrasse_dynamics::{
     kinetic_energy, mass_matrix, momentum, printed_reaction,
 };
 use wrasse_spatial::{Pose, Scalar, SpatialForce, SpatialVelocity, Vec3};
+use wrasse_testing::random_robot::{JOINTS, Recipe, Scene};
+use wrasse_testing::{Numbers, gap, gap_at, larger, largest, size};
 
 fn nothing() -> PerBody<SpatialForce<f64>, JOINTS> {
     PerBody::filled(SpatialForce::zero())
@@ -42,10 +41,12 @@ fn a_load_adds_what_a_rigid_body_of_its_own_would() {
         carried[s.frame.body] = -s.frame.X_BF.force_to_parent(&F_F);
         let sum = inverse_dynamics(&k, &s.nudot, &carried).force;
         let whole = inverse_dynamics(&k_loaded, &s.nudot, &nothing()).force;
-        gap(&kinetic_energy(&k_loaded), &energy)
-            .max(gap(&h_loaded.linear, &(h.linear + h_alone.linear)))
-            .max(gap(&whole, &sum))
-            .max(gap(&loaded.mass(), &(s.robot.mass() + s.load.M_F_F.mass)))
+        largest([
+            gap(&kinetic_energy(&k_loaded), &energy),
+            gap(&h_loaded.linear, &(h.linear + h_alone.linear)),
+            gap(&whole, &sum),
+            gap(&loaded.mass(), &(s.robot.mass() + s.load.M_F_F.mass)),
+        ])
     });
 }
 
@@ -111,10 +112,12 @@ fn a_link_without_mass_changes_nothing() {
         assert_eq!(with.joints[n], 0.0, "nothing to move");
         let M = dense(&mass_matrix(&k));
         let M_with = dense(&mass_matrix(&k_empty)).view((0, 0), M.shape()).into_owned();
-        gap(&with.base, &force.base)
-            .max(gap_at(&with.joints, &force.joints, size(&force)))
-            .max(gap(&M_with, &M))
-            .max(gap_at(&k_empty.centre_of_mass().1, &k.centre_of_mass().1, 1.0))
+        largest([
+            gap(&with.base, &force.base),
+            gap_at(&with.joints, &force.joints, size(&force)),
+            gap(&M_with, &M),
+            gap_at(&k_empty.centre_of_mass().1, &k.centre_of_mass().1, 1.0),
+        ])
     });
 }
 
@@ -168,7 +171,7 @@ fn single_precision_agrees_to_single_precision() {
         let (double, single) = (everything::<f64>(s), everything::<f32>(s));
         assert!(double.iter().zip(&single).any(|(a, b)| a != b), "it is another scalar");
         let sums = double.len() - 1;
-        double[..sums].iter().zip(&single).fold(0.0, |worst: f64, (a, b)| worst.max(gap(a, b)))
+        largest(double[..sums].iter().zip(&single).map(|(a, b)| gap(a, b)))
     });
 }
 
@@ -207,7 +210,9 @@ fn a_robot_without_joints_obeys_eulers_equations() {
         let torque = I * wdot + w.cross(I * w) + p.cross(force);
         let found = inverse_dynamics(&k, &s.nudot, &nothing()).force;
         let numbers = dense_vector(&robot, &found).numbers();
-        gap(&numbers, &SpatialForce::new(torque, force).numbers())
-            .max(f64::from(found.joints != array::from_fn(|_| 0.0)))
+        larger(
+            gap(&numbers, &SpatialForce::new(torque, force).numbers()),
+            f64::from(found.joints != array::from_fn(|_| 0.0)),
+        )
     });
 }

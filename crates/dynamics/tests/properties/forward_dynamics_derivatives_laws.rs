@@ -3,8 +3,7 @@
 use crate::inverse_dynamics_derivatives_laws::{
     displace, dual_external, dual_force, dual_state, vary, vary_six, worst,
 };
-use crate::measure::{dense, for_every_robot, gap, size};
-use crate::random_robot::{JOINTS, Scene};
+use crate::measure::{dense, for_every_robot};
 use nalgebra::DMatrix;
 use std::array;
 use wrasse_dynamics::{
@@ -13,6 +12,8 @@ use wrasse_dynamics::{
     inverse_mass_matrix, kinematics, mass_matrix,
 };
 use wrasse_spatial::{Dual, Lanes, Pose, Real, SpatialForce, SpatialVelocity};
+use wrasse_testing::random_robot::{JOINTS, Scene};
+use wrasse_testing::{gap, larger, largest, size};
 
 type D = Dual<f64>;
 type DualForce = GeneralizedForce<D, JOINTS>;
@@ -142,7 +143,7 @@ fn the_accelerations_give_way_to_all_the_force_that_a_change_asks_for() {
             |m: f64, (force, acceleration)| {
                 let force = matrix(&|j| force.base[j].to_array(), &force.joints);
                 let given = &M * matrix(&|j| acceleration.base[j].to_array(), &acceleration.joints);
-                m.max(gap(&force, &-given))
+                larger(m, gap(&force, &-given))
             },
         )
     });
@@ -153,7 +154,7 @@ fn the_accelerations_give_way_to_all_the_force_that_a_change_asks_for() {
 #[test]
 fn the_accelerations_do_not_change_with_the_pose_of_the_base() {
     for_every_robot(0.0, |s| {
-        (0..6).fold(0.0, |m: f64, c| m.max(size(&by_duals(s, |x, _| displace(&mut x.X_NB, c)))))
+        largest((0..6).map(|c| size(&by_duals(s, |x, _| displace(&mut x.X_NB, c)))))
     });
 }
 
@@ -193,8 +194,8 @@ fn derivatives_in_a_lane_are_exactly_those_alone() {
             (lane(both.by_rate.joints), alone.by_rate.joints),
             (lane(both.by_force.A_jj), alone.by_force.A_jj),
         ];
-        let joints = pairs.iter().fold(0.0, |m: f64, (a, b)| m.max(gap(a, b)));
+        let joints = largest(pairs.iter().map(|(a, b)| gap(a, b)));
         let base = alone.by_rate.base.map(SpatialVelocity::to_array);
-        joints.max(gap(&six(both.by_rate.base), &base))
+        larger(joints, gap(&six(both.by_rate.base), &base))
     });
 }

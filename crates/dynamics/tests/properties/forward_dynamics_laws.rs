@@ -1,13 +1,14 @@
 //! Forward dynamics against inverse dynamics and a dense solve.
 
-use crate::measure::{dense, dense_vector, for_every_robot, gap, gap_at, size};
-use crate::random_robot::{JOINTS, Scene};
+use crate::measure::{dense, dense_vector, for_every_robot};
 use std::array;
 use wrasse_dynamics::{
     BaseMode, Generalized, JointDrive, PerBody, bias_force, driven_dynamics, forward_dynamics,
     inverse_dynamics, kinematics, mass_matrix,
 };
 use wrasse_spatial::{SpatialForce, SpatialVelocity, Vec3};
+use wrasse_testing::random_robot::{JOINTS, Scene};
+use wrasse_testing::{gap, gap_at, larger, largest, size};
 
 /// Some joints follow the scene's accelerations, the others feel the scene's efforts.
 fn mixed_drives(scene: &Scene, effort: &[f64; JOINTS]) -> [JointDrive<f64>; JOINTS] {
@@ -54,7 +55,7 @@ fn driven_dynamics_agrees_with_inverse_dynamics_of_what_it_finds() {
             let k = kinematics(&s.robot, &s.state);
             let found = driven_dynamics(&k, &mixed_drives(s, &s.xi), mode, &s.external);
             let inverse = inverse_dynamics(&k, &found.nudot, &s.external);
-            let scale = s.robot.bodies().fold(1.0, |m: f64, b| m.max(size(&inverse.F_B_B(&k, b))));
+            let scale = larger(1.0, largest(s.robot.bodies().map(|b| size(&inverse.F_B_B(&k, b)))));
             gap_at(&found.force, &inverse.force, scale)
         });
     }

@@ -1,8 +1,7 @@
 //! The generalized and the attitude-held Jacobian: identities, limits, operational space.
 
 use crate::in_time::{Rate, in_time};
-use crate::measure::{dense, dense_columns, dense_joints, for_every_robot, gap, gap_at, size};
-use crate::random_robot::{JOINTS, Scene};
+use crate::measure::{dense, dense_columns, dense_joints, for_every_robot};
 use nalgebra::{DMatrix, DVector};
 use wrasse_dynamics::{
     BodyId, Generalized, Jacobian, Kinematics, MassMatrix, MassProperties, Momentum, PerBody,
@@ -11,6 +10,8 @@ use wrasse_dynamics::{
     mass_matrix, momentum, velocity_from_momentum,
 };
 use wrasse_spatial::{At, Dual, SpatialForce, SpatialMomentum, SpatialVelocity, Sym3, Vec3};
+use wrasse_testing::random_robot::{JOINTS, Scene};
+use wrasse_testing::{gap, gap_at, larger, largest, size};
 
 /// What every law here starts from.
 struct Posture<'a> {
@@ -59,7 +60,7 @@ fn the_twist_of_a_frame_is_that_of_the_joints_plus_that_of_the_momentum() {
         let h_B = in_base_axes(s, &momentum(&posture.k));
         let drift = velocity_from_momentum(&posture.J_frame, &posture.M, &h_B);
         let sum = posture.times(&posture.free()) + drift;
-        let scale = size(&drift).max(size(&s.state.v));
+        let scale = larger(size(&drift), size(&s.state.v));
         gap_at(&sum, &posture.k.velocity(&s.frame), scale)
     });
 }
@@ -181,8 +182,10 @@ fn a_tip_wrench_is_held_by_the_generalized_jacobian_and_accelerates_the_base() {
         let expected = base_mobility(&posture) * DVector::from_column_slice(&F_N.to_array());
         // Without the motors the joints would give way as fast as this.
         let slack = forward_dynamics(&posture.k, &Generalized::default(), &external).joints;
-        gap_at(&found.joints, &[0.0; JOINTS], size(&slack))
-            .max(gap(&A.to_array().to_vec(), &expected.as_slice().to_vec()))
+        larger(
+            gap_at(&found.joints, &[0.0; JOINTS], size(&slack)),
+            gap(&A.to_array().to_vec(), &expected.as_slice().to_vec()),
+        )
     });
 }
 
@@ -235,7 +238,7 @@ fn the_tip_accelerates_with_the_joints_and_the_bias_of_the_free_base() {
         for (column, qddot) in posture.free().iter().zip(nudot.joints) {
             reduced += *column * qddot;
         }
-        gap_at(&reduced, &whole, size(&whole).max(size(&nudot)))
+        gap_at(&reduced, &whole, larger(size(&whole), size(&nudot)))
     });
 }
 
@@ -271,7 +274,7 @@ fn a_heavy_base_makes_the_robot_a_fixed_base_one_along_a_straight_line() {
     for_every_robot(2e-3, |scene| {
         straight_line(|s| {
             let (free, _, fixed) = heavy(scene, s, true);
-            (&free - &fixed).abs().max() * s
+            size(&(&free - &fixed)) * s
         })
     });
 }
@@ -282,7 +285,7 @@ fn a_base_that_is_hard_to_turn_makes_the_robot_an_attitude_held_one_along_a_stra
     for_every_robot(2e-3, |scene| {
         straight_line(|s| {
             let (free, held, _) = heavy(scene, s, false);
-            (&free - &held).abs().max() * s
+            size(&(&free - &held)) * s
         })
     });
 }
@@ -291,7 +294,7 @@ fn a_base_that_is_hard_to_turn_makes_the_robot_an_attitude_held_one_along_a_stra
 fn straight_line(product: impl Fn(f64) -> f64) -> f64 {
     let decades = [1e5, 1e6, 1e7, 1e8, 1e9].map(product);
     assert!(decades[0] > 0.0, "the limit is approached, not sat on");
-    decades.windows(2).fold(0.0, |worst: f64, pair| worst.max((pair[1] / pair[0] - 1.0).abs()))
+    largest(decades.windows(2).map(|pair| (pair[1] / pair[0] - 1.0).abs()))
 }
 
 /// Nothing in the dual route changes a value. Measured 0.

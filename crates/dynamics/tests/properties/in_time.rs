@@ -1,8 +1,8 @@
 //! Exact rates: the state carried through the kernels as dual numbers.
 
-use crate::random_robot::JOINTS;
 use wrasse_dynamics::{GeneralizedVelocity, State};
 use wrasse_spatial::{Dual, Mat3, Pose, SpatialForce, SpatialVelocity, Vec3};
+use wrasse_testing::random_robot::JOINTS;
 
 /// A state as it moves on: its values now, and their rates.
 pub(crate) fn in_time(

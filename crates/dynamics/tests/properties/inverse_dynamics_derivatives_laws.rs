@@ -1,13 +1,14 @@
 //! Derivatives of inverse dynamics against dual numbers, and against differences.
 
-use crate::measure::{dense, for_every_robot, gap, gap_at, size};
-use crate::random_robot::{JOINTS, Scene};
+use crate::measure::{dense, for_every_robot};
 use std::array;
 use wrasse_dynamics::{
     Generalized, GeneralizedForce, GeneralizedVelocity, InverseDynamicsDerivatives, PerBody, State,
     inverse_dynamics, inverse_dynamics_derivatives, kinematics, mass_matrix,
 };
 use wrasse_spatial::{Dual, Mat3, Pose, Real, SpatialForce, SpatialVelocity};
+use wrasse_testing::random_robot::{JOINTS, Scene};
+use wrasse_testing::{gap, gap_at, largest, size};
 
 type D = Dual<f64>;
 
@@ -120,11 +121,11 @@ pub(crate) fn worst<B: Copy>(
     columns: impl Iterator<Item = (Generalized<B, f64, JOINTS>, Generalized<B, f64, JOINTS>)>,
 ) -> f64
 where
-    Generalized<B, f64, JOINTS>: crate::measure::Numbers,
+    Generalized<B, f64, JOINTS>: wrasse_testing::Numbers,
 {
     let columns: Vec<_> = columns.collect();
-    let scale = columns.iter().fold(0.0, |m: f64, (_, b)| m.max(size(b)));
-    columns.iter().fold(0.0, |m: f64, (a, b)| m.max(gap_at(a, b, scale)))
+    let scale = largest(columns.iter().map(|(_, b)| size(b)));
+    largest(columns.iter().map(|(a, b)| gap_at(a, b, scale)))
 }
 
 /// In free space nothing depends on where the base is and how it is turned: duals through inverse
@@ -132,7 +133,7 @@ where
 #[test]
 fn the_forces_do_not_change_with_the_pose_of_the_base() {
     for_every_robot(0.0, |s| {
-        (0..6).fold(0.0, |m: f64, c| m.max(size(&by_duals(s, |x, _| displace(&mut x.X_NB, c)))))
+        largest((0..6).map(|c| size(&by_duals(s, |x, _| displace(&mut x.X_NB, c)))))
     });
 }
 

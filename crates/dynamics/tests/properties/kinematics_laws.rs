@@ -1,13 +1,14 @@
 //! Poses, twists and Jacobians against exact derivatives.
 
 use crate::in_time::{Rate, in_time};
-use crate::measure::{for_every_robot, gap, gap_at, size};
-use crate::random_robot::{JOINTS, Scene};
+use crate::measure::for_every_robot;
 use wrasse_dynamics::{
     BodyId, Frame, Generalized, GeneralizedVelocity, JointKind, State, bias_acceleration,
     bias_force, jacobian, kinematics, mass_matrix,
 };
 use wrasse_spatial::{Dual, Pose, Quat, SpatialVelocity, vec3};
+use wrasse_testing::random_robot::{JOINTS, Scene};
+use wrasse_testing::{gap, gap_at, larger, largest, size};
 
 /// Twist of the scene's tool from the derivative of its pose, `Ṙ Rᵀ = [w]×`.
 fn twist_by_derivative(scene: &Scene, state: &State<f64, JOINTS>) -> SpatialVelocity<f64> {
@@ -46,11 +47,11 @@ fn the_twist_of_a_frame_is_the_rate_of_its_pose() {
 fn each_column_of_the_jacobian_is_the_derivative_of_the_pose() {
     for_every_robot(1e-13, |s| {
         let J_frame = jacobian(&kinematics(&s.robot, &s.state), &s.frame);
-        (0..6 + s.robot.joint_count()).fold(0.0, |worst: f64, c| {
+        largest((0..6 + s.robot.joint_count()).map(|c| {
             let nu = unit(c);
             let state = State { V_NB_B: nu.base, v: nu.joints, ..s.state };
-            worst.max(gap_at(&J_frame.times(&nu), &twist_by_derivative(s, &state), 1.0))
-        })
+            gap_at(&J_frame.times(&nu), &twist_by_derivative(s, &state), 1.0)
+        }))
     });
 }
 
@@ -103,8 +104,10 @@ fn nothing_changes_for_the_robot_when_every_pose_is_moved() {
         assert_eq!(bias_force(&here), bias_force(&there), "bit for bit");
         let (V, R) = (here.velocity(&s.frame), s.X_elsewhere.rotation);
         let V_turned = SpatialVelocity::new(R * V.angular, R * V.linear);
-        gap(&(s.X_elsewhere * here.pose(&s.frame)), &there.pose(&s.frame))
-            .max(gap(&V_turned, &there.velocity(&s.frame)))
+        larger(
+            gap(&(s.X_elsewhere * here.pose(&s.frame)), &there.pose(&s.frame)),
+            gap(&V_turned, &there.velocity(&s.frame)),
+        )
     });
 }
 
@@ -112,15 +115,15 @@ fn nothing_changes_for_the_robot_when_every_pose_is_moved() {
 #[test]
 fn a_revolute_joint_turns_about_its_axis_and_a_prismatic_one_slides_along_it() {
     for_every_robot(1e-14, |s| {
-        s.robot.joints().fold(0.0, |worst: f64, j| {
+        largest(s.robot.joints().map(|j| {
             let (joint, q) = (s.robot.joint(j), s.state.q[j]);
             let along = joint.axis_B * q;
             let X_moved = match joint.kind {
                 JointKind::Revolute => Pose::new(Quat::exp(along).to_matrix(), vec3(0.0, 0.0, 0.0)),
                 JointKind::Prismatic => Pose { translation: along, ..Pose::identity() },
             };
-            worst.max(gap(&joint.X_PB(q), &(joint.X_PB_zero * X_moved)))
-        })
+            gap(&joint.X_PB(q), &(joint.X_PB_zero * X_moved))
+        }))
     });
 }
 
@@ -129,12 +132,12 @@ fn a_revolute_joint_turns_about_its_axis_and_a_prismatic_one_slides_along_it() {
 fn the_origin_of_a_joint_stays_on_its_parent() {
     for_every_robot(1e-14, |s| {
         let k = kinematics(&s.robot, &s.state);
-        s.robot.joints().fold(0.0, |worst: f64, j| {
+        largest(s.robot.joints().map(|j| {
             let mut state = s.state;
             state.q[j] = 0.0;
             let at_zero = kinematics(&s.robot, &state).X_NB(BodyId::Link(j)).translation;
             let off = k.joint_origin(j) - at_zero;
-            worst.max(off.norm() / size(&at_zero).max(1.0))
-        })
+            off.norm() / larger(size(&at_zero), 1.0)
+        }))
     });
 }

@@ -4,9 +4,6 @@
 #![allow(clippy::unwrap_used, reason = "a test may stop where it finds nothing")]
 #![allow(clippy::print_stdout, reason = "prints what was measured, under --nocapture")]
 
-#[path = "../random_robot/mod.rs"]
-mod random_robot;
-
 mod in_time;
 mod measure;
 

@@ -1,13 +1,14 @@
 //! The mass matrix against inverse dynamics, energy and a dense factorization.
 
-use crate::measure::{dense, dense_joints, dense_vector, for_every_robot, gap};
-use crate::random_robot::JOINTS;
+use crate::measure::{dense, dense_joints, dense_vector, for_every_robot};
 use nalgebra::{DVector, SymmetricEigen};
 use wrasse_dynamics::{
     Cholesky, Generalized, PerBody, bias_force, inverse_dynamics, kinematics, kinetic_energy,
     mass_matrix,
 };
 use wrasse_spatial::{SpatialForce, SpatialVelocity};
+use wrasse_testing::gap;
+use wrasse_testing::random_robot::JOINTS;
 
 /// Measured 1e-15.
 #[test]

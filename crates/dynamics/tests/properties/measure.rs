@@ -1,13 +1,14 @@
-//! Runs a law on many robots and says how well it held; compares what the laws compare.
+//! Runs a law on many robots and says how well it held; matrices as the laws need them.
 
-use crate::random_robot::{JOINTS, Recipe, Scene};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::{Strategy, any};
 use proptest::test_runner::{Config, RngSeed, TestCaseError, TestRunner};
 use std::cell::Cell;
 use std::thread;
 use wrasse_dynamics::{Generalized, MassMatrix, Robot};
-use wrasse_spatial::{Mat3, Pose, SpatialForce, SpatialVelocity, Vec3};
+use wrasse_spatial::SpatialVelocity;
+use wrasse_testing::random_robot::{JOINTS, Recipe, Scene};
+use wrasse_testing::{Numbers, larger};
 
 /// Trees of 1 to 12 joints on 1 to 3 arms, branching, a quarter of the joints sliding.
 pub(crate) fn any_robot() -> impl Strategy<Value = Recipe> {
@@ -45,7 +46,7 @@ pub(crate) fn for_every(
     let worst = Cell::new(0.0_f64);
     let outcome = TestRunner::new(config).run(&robots, |recipe| {
         let found = error(&Scene::new(&recipe));
-        worst.set(worst.get().max(found));
+        worst.set(larger(worst.get(), found));
         // Written so that a NaN fails.
         if found <= bound {
             return Ok(());
@@ -56,89 +57,6 @@ pub(crate) fn for_every(
     if let Err(failure) = outcome {
         panic!("{failure}");
     }
-}
-
-/// Something made of numbers.
-pub(crate) trait Numbers {
-    fn numbers(&self) -> Vec<f64>;
-}
-impl Numbers for f64 {
-    fn numbers(&self) -> Vec<f64> {
-        vec![*self]
-    }
-}
-impl Numbers for Vec3<f64> {
-    fn numbers(&self) -> Vec<f64> {
-        self.to_array().to_vec()
-    }
-}
-impl Numbers for Mat3<f64> {
-    fn numbers(&self) -> Vec<f64> {
-        self.rows.numbers()
-    }
-}
-impl Numbers for Pose<f64> {
-    fn numbers(&self) -> Vec<f64> {
-        [self.rotation.numbers(), self.translation.numbers()].concat()
-    }
-}
-impl Numbers for SpatialVelocity<f64> {
-    fn numbers(&self) -> Vec<f64> {
-        self.to_array().to_vec()
-    }
-}
-impl Numbers for SpatialForce<f64> {
-    fn numbers(&self) -> Vec<f64> {
-        self.to_array().to_vec()
-    }
-}
-impl<E: Numbers, const N: usize> Numbers for [E; N] {
-    fn numbers(&self) -> Vec<f64> {
-        self.iter().flat_map(Numbers::numbers).collect()
-    }
-}
-impl<E: Numbers> Numbers for Vec<E> {
-    fn numbers(&self) -> Vec<f64> {
-        self.iter().flat_map(Numbers::numbers).collect()
-    }
-}
-impl<B: Numbers, const N: usize> Numbers for Generalized<B, f64, N> {
-    fn numbers(&self) -> Vec<f64> {
-        [self.base.numbers(), self.joints.to_vec()].concat()
-    }
-}
-impl Numbers for DMatrix<f64> {
-    fn numbers(&self) -> Vec<f64> {
-        self.as_slice().to_vec()
-    }
-}
-impl Numbers for DVector<f64> {
-    fn numbers(&self) -> Vec<f64> {
-        self.as_slice().to_vec()
-    }
-}
-
-/// Largest element.
-pub(crate) fn size(a: &impl Numbers) -> f64 {
-    a.numbers().iter().fold(0.0, |m, x| m.max(x.abs()))
-}
-
-/// Largest difference, relative to the largest element of either.
-pub(crate) fn gap(a: &impl Numbers, b: &impl Numbers) -> f64 {
-    gap_at(a, b, size(a).max(size(b)))
-}
-
-/// Largest difference relative to a scale: where both sides are sums of terms that cancel.
-pub(crate) fn gap_at(a: &impl Numbers, b: &impl Numbers, scale: f64) -> f64 {
-    let (a, b) = (a.numbers(), b.numbers());
-    assert_eq!(a.len(), b.len(), "as many numbers on either side");
-    let mut worst = 0.0;
-    for (x, y) in a.iter().zip(&b) {
-        let off = (x - y).abs();
-        // Not `max`, which would drop a NaN.
-        worst = if off <= worst { worst } else { off };
-    }
-    if worst == 0.0 { 0.0 } else { worst / scale }
 }
 
 /// The whole mass matrix, (6+n)×(6+n).

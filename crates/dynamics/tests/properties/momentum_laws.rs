@@ -1,22 +1,23 @@
 //! Momentum and energy: what an isolated system keeps.
 
 use crate::in_time::{Rate, in_time};
-use crate::measure::{for_every_robot, gap, gap_at, size};
-use crate::random_robot::Scene;
+use crate::measure::for_every_robot;
 use wrasse_dynamics::{
     Generalized, GeneralizedVelocity, Momentum, PerBody, base_twist, forward_dynamics, kinematics,
     kinetic_energy, mass_matrix, momentum, momentum_matrix,
 };
 use wrasse_spatial::{Dual, SpatialForce, SpatialMomentum, Vec3};
+use wrasse_testing::random_robot::Scene;
+use wrasse_testing::{gap, gap_at, larger, largest, size};
 
 /// Largest momentum of one body, about the system's centre of mass: what the sum is made of.
 fn largest_share(scene: &Scene) -> f64 {
     let k = kinematics(&scene.robot, &scene.state);
     let p_NScm = k.centre_of_mass().1;
-    scene.robot.bodies().fold(0.0, |m: f64, body| {
+    largest(scene.robot.bodies().map(|body| {
         let h_B = *scene.robot.inertia(body) * k.V_NB_B(body);
-        m.max(size(&k.X_NB(body).force_to_parent(&h_B).about(p_NScm)))
-    })
+        size(&k.X_NB(body).force_to_parent(&h_B).about(p_NScm))
+    }))
 }
 
 /// The system's momentum as it moves on with these accelerations.
@@ -63,12 +64,11 @@ fn the_momentum_of_a_system_that_nothing_pushes_is_constant() {
         let none = PerBody::filled(SpatialForce::zero());
         let motors = Generalized { base: SpatialForce::zero(), joints: s.xi };
         let h = momentum_in_time(s, &forward_dynamics(&k, &motors, &none));
-        let scale = largest_share(s).max(size(&s.xi));
-        gap_at(&h.linear.rate(), &Vec3::zero(), scale).max(gap_at(
-            &h.angular.rate(),
-            &Vec3::zero(),
-            scale,
-        ))
+        let scale = larger(largest_share(s), size(&s.xi));
+        larger(
+            gap_at(&h.linear.rate(), &Vec3::zero(), scale),
+            gap_at(&h.angular.rate(), &Vec3::zero(), scale),
+        )
     });
 }
 
@@ -83,12 +83,11 @@ fn momentum_changes_by_the_external_wrench_about_the_centre_of_mass() {
         let wrench = s.robot.bodies().fold(SpatialForce::zero(), |sum, body| {
             sum + k.X_NB(body).force_to_parent(&s.external[body]).about(p_NScm)
         });
-        let scale = largest_share(s).max(size(&wrench));
-        gap_at(&h.linear.rate(), &wrench.force, scale).max(gap_at(
-            &h.angular.rate(),
-            &wrench.torque,
-            scale,
-        ))
+        let scale = larger(largest_share(s), size(&wrench));
+        larger(
+            gap_at(&h.linear.rate(), &wrench.force, scale),
+            gap_at(&h.angular.rate(), &wrench.torque, scale),
+        )
     });
 }
 
@@ -98,7 +97,7 @@ fn the_centre_of_mass_moves_with_the_linear_momentum() {
     for_every_robot(1e-13, |s| {
         let h = momentum_in_time(s, &s.nudot);
         let now = momentum(&kinematics(&s.robot, &s.state));
-        gap(&(h.p_NScm_N.rate() * now.mass), &now.linear).max(gap(&now.mass, &s.robot.mass()))
+        larger(gap(&(h.p_NScm_N.rate() * now.mass), &now.linear), gap(&now.mass, &s.robot.mass()))
     });
 }
 

@@ -1,7 +1,6 @@
 //! Operational inertia against forward dynamics of a push, by a route that forms no factors' columns.
 
-use crate::measure::{for_every_robot, gap};
-use crate::random_robot::{JOINTS, Scene};
+use crate::measure::for_every_robot;
 use std::array;
 use wrasse_dynamics::{
     BaseMode, BodyId, Configuration, Factorization, Frame, JointDrive, PerBody, State,
@@ -9,6 +8,8 @@ use wrasse_dynamics::{
     operational_inertia,
 };
 use wrasse_spatial::{Pose, SpatialForce, SpatialVelocity};
+use wrasse_testing::random_robot::{JOINTS, Scene};
+use wrasse_testing::{gap, larger};
 
 type Matrix = [[f64; 6]; 6];
 
@@ -73,7 +74,7 @@ fn a_push_on_one_frame_accelerates_another_as_forward_dynamics_says() {
         for (to, at) in [(A, A), (A, B), (B, A), (B, B)] {
             let per_push = inverse_operational_inertia(&s.robot, &M, &to.1, &at.1);
             let found = times(&per_push, &push(s).to_array());
-            worst = worst.max(gap(&found, &pushed(s, &to.0, &at.0, &push(s))));
+            worst = larger(worst, gap(&found, &pushed(s, &to.0, &at.0, &push(s))));
         }
         worst
     });

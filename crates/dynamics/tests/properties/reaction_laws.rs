@@ -2,14 +2,15 @@
 //! printed.
 
 use crate::in_time::{Rate, in_time};
-use crate::measure::{any_robot, for_every, for_every_robot, gap, gap_at, size};
-use crate::random_robot::{JOINTS, Recipe, Scene};
+use crate::measure::{any_robot, for_every, for_every_robot};
 use proptest::prelude::Strategy;
 use wrasse_dynamics::{
     BaseMode, BodyId, Generalized, JointDrive, PerBody, State, attitude_torque, driven_dynamics,
     inverse_dynamics, kinematics, mount_reaction, printed_reaction,
 };
 use wrasse_spatial::{Dual, SpatialForce, SpatialVelocity, Sym3, Vec3};
+use wrasse_testing::random_robot::{JOINTS, Recipe, Scene};
+use wrasse_testing::{gap, gap_at, larger, largest, size};
 
 fn nothing() -> PerBody<SpatialForce<f64>, JOINTS> {
     PerBody::filled(SpatialForce::zero())
@@ -91,11 +92,11 @@ fn the_reaction_of_each_arm_is_the_sum_over_its_bodies() {
     for_every_robot(1e-13, |s| {
         let k = kinematics(&s.robot, &s.state);
         let dynamics = inverse_dynamics(&k, &s.nudot, &nothing());
-        mounts(s).fold(0.0, |worst: f64, root| {
+        largest(mounts(s).map(|root| {
             let (arm, p_1) = (arm(s, root), k.joint_origin(root));
             let expected = SpatialForce::new(moment_of(&arm, p_1), force_of(&arm));
-            worst.max(gap(&mount_reaction(&k, &dynamics, root), &expected))
-        })
+            gap(&mount_reaction(&k, &dynamics, root), &expected)
+        }))
     });
 }
 
@@ -112,7 +113,7 @@ fn a_tip_wrench_relieves_the_mount_by_itself() {
         let free = mount_reaction(&k, &inverse_dynamics(&k, &s.nudot, &nothing()), root);
         let relieved = mount_reaction(&k, &inverse_dynamics(&k, &s.nudot, &pushed), root);
         let F_e = k.X_NB(body).force_to_parent(&pushed[body]).about(k.joint_origin(root));
-        gap_at(&(free - relieved), &F_e, size(&free).max(size(&relieved)))
+        gap_at(&(free - relieved), &F_e, larger(size(&free), size(&relieved)))
     });
 }
 
@@ -123,7 +124,7 @@ fn the_attitude_torque_is_the_sum_over_all_bodies() {
         let k = kinematics(&s.robot, &s.state);
         let torque = attitude_torque(&k, &inverse_dynamics(&k, &s.nudot, &nothing()));
         let all = parts(s);
-        gap_at(&torque, &moment_of(&all, all[0].p), size(&torque).max(size(&force_of(&all))))
+        gap_at(&torque, &moment_of(&all, all[0].p), larger(size(&torque), size(&force_of(&all))))
     });
 }
 
@@ -157,7 +158,7 @@ fn the_torque_that_holds_the_base_is_the_attitude_torque() {
         let torque = held.state.X_NB.rotation * found.force.base.torque;
         let all = parts(&held);
         let (F_T, recoil) = (force_of(&all[1..]), all[0].a * -all[0].m);
-        gap(&torque, &attitude_torque(&k, &dynamics)).max(gap(&F_T, &recoil))
+        larger(gap(&torque, &attitude_torque(&k, &dynamics)), gap(&F_T, &recoil))
     });
 }
 
@@ -168,7 +169,7 @@ fn the_printed_moment_lacks_the_orbital_part_of_the_arm() {
     for_every_robot(1e-13, |s| {
         let k = kinematics(&s.robot, &s.state);
         let dynamics = inverse_dynamics(&k, &s.nudot, &nothing());
-        mounts(s).fold(0.0, |worst: f64, root| {
+        largest(mounts(s).map(|root| {
             let exact = mount_reaction(&k, &dynamics, root);
             let printed = printed_reaction(&k, &s.nudot, root);
             let arm = arm(s, root);
@@ -177,13 +178,14 @@ fn the_printed_moment_lacks_the_orbital_part_of_the_arm() {
             let orbital = arm.iter().fold(Vec3::zero(), |sum, part| {
                 sum + (part.p - p_a).cross((part.a - a_a) * part.m)
             });
-            let scale = size(&exact).max(size(&orbital));
+            let scale = larger(size(&exact), size(&orbital));
             let spin = arm.iter().fold(Vec3::zero(), |sum, part| sum + part.spin_rate);
-            worst
-                .max(gap_at(&(printed.N_r_arm_cm + orbital), &exact.torque, scale))
-                .max(gap_at(&printed.F_T, &exact.force, scale))
-                .max(gap_at(&printed.N_T, &spin, scale))
-        })
+            largest([
+                gap_at(&(printed.N_r_arm_cm + orbital), &exact.torque, scale),
+                gap_at(&printed.F_T, &exact.force, scale),
+                gap_at(&printed.N_T, &spin, scale),
+            ])
+        }))
     });
 }
 
@@ -192,13 +194,13 @@ fn the_printed_moment_lacks_the_orbital_part_of_the_arm() {
 fn the_two_readings_of_equation_3_differ_by_a_lever() {
     for_every_robot(1e-13, |s| {
         let k = kinematics(&s.robot, &s.state);
-        mounts(s).fold(0.0, |worst: f64, root| {
+        largest(mounts(s).map(|root| {
             let printed = printed_reaction(&k, &s.nudot, root);
             let lever = centre_of(&arm(s, root)) - k.centre_of_mass().1;
             let expected = lever.cross(printed.F_T);
-            let scale = size(&printed.N_r_arm_cm).max(size(&printed.N_r_system_cm));
-            worst.max(gap_at(&(printed.N_r_arm_cm - printed.N_r_system_cm), &expected, scale))
-        })
+            let scale = larger(size(&printed.N_r_arm_cm), size(&printed.N_r_system_cm));
+            gap_at(&(printed.N_r_arm_cm - printed.N_r_system_cm), &expected, scale)
+        }))
     });
 }
 
@@ -220,7 +222,7 @@ fn a_fixed_part_adds_its_own_spin_to_the_printed_moment() {
         let (R, I_F) = (s.frame.X_BF.rotation, s.load.I_parts_F.to_mat3());
         let I_B = Sym3::symmetric_part(&(R * I_F * R.transpose()));
         let spin = moving.X_NB(s.frame.body).rotation * (Sym3::from_f64(I_B) * w_B);
-        gap_at(&(with - without), &spin.rate(), size(&with).max(size(&spin.rate())))
+        gap_at(&(with - without), &spin.rate(), larger(size(&with), size(&spin.rate())))
     });
 }
 

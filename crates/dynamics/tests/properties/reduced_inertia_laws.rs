@@ -1,7 +1,6 @@
 //! The joint dynamics with the base eliminated.
 
-use crate::measure::{dense, dense_joints, for_every_robot, gap, gap_at, size};
-use crate::random_robot::{JOINTS, Scene};
+use crate::measure::{dense, dense_joints, for_every_robot};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use wrasse_dynamics::{
     BaseMode, Generalized, JointDrive, PerBody, ReducedDynamics, State, attitude_held_dynamics,
@@ -9,6 +8,8 @@ use wrasse_dynamics::{
     kinetic_energy, mass_matrix,
 };
 use wrasse_spatial::{SpatialForce, SpatialVelocity};
+use wrasse_testing::random_robot::{JOINTS, Scene};
+use wrasse_testing::{gap, gap_at, larger, size};
 
 type Reduced = ReducedDynamics<f64, JOINTS>;
 
@@ -43,7 +44,7 @@ fn free_floating_is_lighter_than_attitude_held_is_lighter_than_fixed() {
         let ([free, held, fixed], ..) = inertias(s);
         let lowest = |D: DMatrix<f64>| SymmetricEigen::new(D).eigenvalues.min();
         let least = lowest(&held - &free).min(lowest(&fixed - &held));
-        (-least / size(&fixed)).max(0.0)
+        larger(-least / size(&fixed), 0.0)
     });
 }
 
@@ -116,6 +117,6 @@ fn terrestrial_torque_moves_a_free_flyer_too_far() {
         let found = DVector::from_column_slice(&found.joints[..n]);
         let predicted = free.cholesky().unwrap().solve(&torque);
         let (done, asked) = (found.dot(&torque), wanted.dot(&torque));
-        gap(&found, &predicted).max(gap_at(&0.0, &(asked - done).max(0.0), asked))
+        larger(gap(&found, &predicted), gap_at(&0.0, &larger(asked - done, 0.0), asked))
     });
 }

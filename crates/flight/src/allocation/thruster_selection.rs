@@ -279,7 +279,7 @@ mod tests {
             for i in 0..2 {
                 most[i] = most[i].max(searches[i].exchanges() - begun[i]);
             }
-            apart = apart.max((cost[0] - cost[1]).abs());
+            apart = wrasse_testing::larger(apart, (cost[0] - cost[1]).abs());
         }
         assert!(most[0] < 60 && most[1] < 180, "{most:?}");
         assert!(apart < 1e-9, "{apart}");

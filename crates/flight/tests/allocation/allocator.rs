@@ -1,6 +1,6 @@
 //! All groups together: what is told and what is missing make up what was wanted.
 
-use crate::bench::{
+use super::bench::{
     Bench, PERIOD, actuators, cmg_torque, cmgs, demand, desaturation, pulses, setup, size,
     thrusters, wheels,
 };
@@ -9,6 +9,7 @@ use proptest::test_runner::RngSeed;
 use wrasse_flight::allocation::{Allocation, AllocationSetup, Allocator, Demand, Unit};
 use wrasse_hardware::{ActuatorReadings, Actuators, CMGS};
 use wrasse_spatial::{SpatialForce, Vec3, vec3};
+use wrasse_testing::larger;
 
 fn cases(cases: u32) -> ProptestConfig {
     ProptestConfig {
@@ -166,8 +167,8 @@ fn cmgs_take_off_what_the_pulses_give() {
     for _ in 0..250 {
         let felt = bench.step(&demand).torque;
         let pulse = pulses(&bench.actuators, &bench.last.command, &demand).torque;
-        largest = largest.max(size(pulse));
-        worst = worst.max(size(felt - demand.wanted.torque));
+        largest = larger(largest, size(pulse));
+        worst = larger(worst, size(felt - demand.wanted.torque));
         assert!(size(bench.last.report.missing.torque) < 1e-12);
     }
     assert!(largest > 1.0, "pulses of {largest} N·m");

@@ -1,6 +1,6 @@
 //! Whatever sets, wants and readings there are: no command beyond limits, none that is NaN.
 
-use crate::bench::{
+use super::bench::{
     Bench, PERIOD, actuators, cmgs, demand, desaturation, setup, thrusters, wheels,
 };
 use proptest::num::f64::{ANY, INFINITE, NEGATIVE, NORMAL, POSITIVE, QUIET_NAN, SUBNORMAL, ZERO};

@@ -9,6 +9,7 @@ use wrasse_hardware::{
     Thruster, WHEELS,
 };
 use wrasse_spatial::{SpatialForce, Vec3, vec3};
+use wrasse_testing::largest;
 
 /// Control period (s).
 pub(crate) const PERIOD: f64 = 0.02;
@@ -197,5 +198,5 @@ pub(crate) fn cmg_torque(
 pub(crate) fn size(v: Vec3<f64>) -> f64 {
     let each = v.to_array();
     assert!(each.iter().all(|x| x.is_finite()), "{v:?}");
-    each.into_iter().map(f64::abs).fold(0.0, f64::max)
+    largest(each.into_iter().map(f64::abs))
 }

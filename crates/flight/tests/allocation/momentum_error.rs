@@ -1,9 +1,10 @@
 //! What servos, friction and failures take is asked for again; what was reported missing is not.
 
-use crate::bench::{Bench, PERIOD, actuators, cmgs, demand, setup, size, wheels};
+use super::bench::{Bench, PERIOD, actuators, cmgs, demand, setup, size, wheels};
 use wrasse_flight::allocation::{Allocator, Unit};
 use wrasse_hardware::ActuatorReadings;
 use wrasse_spatial::Vec3;
+use wrasse_testing::{larger, largest};
 
 /// Rate at which a debt is paid off (1/s).
 const INTEGRAL_GAIN: f64 = 10.0;
@@ -28,7 +29,7 @@ fn what_friction_takes_dies_out_at_the_stated_rate() {
     let mut worst = 0.0_f64;
     for k in 1..150 {
         let off = bench.step(&demand).torque - demand.wanted.torque;
-        worst = worst.max(size(off - off_at_first * (1.0 - INTEGRAL_GAIN * PERIOD).powi(k)));
+        worst = larger(worst, size(off - off_at_first * (1.0 - INTEGRAL_GAIN * PERIOD).powi(k)));
     }
     assert!(worst < 1e-14, "{worst:e} N·m");
 }
@@ -75,7 +76,7 @@ fn nothing_winds_up_while_more_is_wanted_than_wheels_have() {
     }
     let mut worst = 0.0_f64;
     for _ in 0..50 {
-        worst = worst.max(size(bench.step(&demand([0.0; 3], [0.0; 3])).torque));
+        worst = larger(worst, size(bench.step(&demand([0.0; 3], [0.0; 3])).torque));
     }
     assert!(worst < 1e-13, "{worst:e} N·m that nobody wanted");
 }
@@ -94,7 +95,7 @@ fn nothing_winds_up_while_more_is_wanted_than_cmgs_hold() {
     let mut worst = 0.0_f64;
     for _ in 0..100 {
         let torque = bench.step(&demand([0.0; 3], [0.0; 3])).torque;
-        worst = worst.max(size(torque));
+        worst = larger(worst, size(torque));
         felt += torque * PERIOD;
     }
     assert!(missing > 100.0, "{missing} N·m·s");
@@ -111,7 +112,7 @@ fn friction_during_saturation_does_not_wind_up() {
     }
     let mut worst = 0.0_f64;
     for _ in 0..50 {
-        worst = worst.max(size(bench.step(&demand([0.0; 3], [0.0; 3])).torque));
+        worst = larger(worst, size(bench.step(&demand([0.0; 3], [0.0; 3])).torque));
     }
     assert!(worst < 1e-13, "{worst:e} N·m that nobody wanted");
 }
@@ -235,7 +236,7 @@ fn what_is_owed_is_not_told_as_missing() {
     // Something turned the first wheel by 5 rad/s: 0.5 N·m·s that nobody asked for.
     readings.wheel_speed[0] = 5.0;
     let allocation = allocator.allocate(&idle, &readings);
-    let most = allocation.command.wheel_torque.iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+    let most = largest(allocation.command.wheel_torque.iter().map(|u| u.abs()));
     assert!(most > 0.19, "the wheels work at the debt: {most} N·m");
     assert_eq!(size(allocation.report.missing.torque), 0.0);
 }

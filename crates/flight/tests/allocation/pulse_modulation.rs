@@ -1,8 +1,9 @@
 //! Pulse modulation against its closed form, a finely stepped simulation, and what is wanted.
 
-use crate::figures::Page;
 use wrasse_flight::allocation::{Modulation, Modulator};
 use wrasse_spatial::Real;
+use wrasse_testing::{Page, smaller};
+use wrasse_testing::{larger, largest};
 
 /// Levels of a published servicer: 0.25 and 0.15 at a gain of 10 and a lag of 0.2 s.
 const PUBLISHED: Modulation<f64> =
@@ -81,7 +82,7 @@ fn pulses_and_pauses_are_those_of_the_closed_form_and_of_a_simulation() {
         for (other_pulse, other_pause) in
             [closed_form(&PUBLISHED, input), simulated(&PUBLISHED, input)]
         {
-            let off = (pulse / other_pulse - 1.0).abs().max((pause / other_pause - 1.0).abs());
+            let off = larger((pulse / other_pulse - 1.0).abs(), (pause / other_pause - 1.0).abs());
             assert!(
                 off < 1e-3,
                 "{input}: {pulse} and {pause}, not {other_pulse} and {other_pause}"
@@ -124,7 +125,7 @@ fn no_pulse_is_shorter_than_the_thruster_can_be_open() {
             let on = on_times(&PUBLISHED, shortest, input, period, 2000);
             let found = pulses(&on, period);
             assert!(found.len() > 20, "{} pulses", found.len());
-            let least = found[1..].iter().map(|p| p.0).fold(f64::MAX, f64::min);
+            let least = found[1..].iter().map(|p| p.0).fold(f64::MAX, smaller);
             assert!(least > shortest - 1e-12, "{least} of {shortest} s");
         }
     }
@@ -149,7 +150,7 @@ fn average_off(law: &Modulation<f64>, period: f64, count: usize) -> f64 {
         let on = on_times(law, 0.02, law.input_for(share), period, count);
         (on.iter().sum::<f64>() / 100.0 - share).abs()
     });
-    off.into_iter().fold(0.0, f64::max)
+    largest(off)
 }
 
 /// The longer the control period, the less the mean level lies halfway.

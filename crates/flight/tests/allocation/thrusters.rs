@@ -6,6 +6,7 @@ use proptest::test_runner::{Config, RngSeed};
 use wrasse_flight::allocation::{Selection, WrenchAxes, controllable_axes, thruster_duties};
 use wrasse_hardware::{THRUSTERS, Thruster};
 use wrasse_spatial::{SpatialForce, Vec3, vec3};
+use wrasse_testing::{largest, smaller};
 
 const USABLE: [bool; THRUSTERS] = [true; THRUSTERS];
 
@@ -65,7 +66,7 @@ fn propellant(set: &[Thruster<f64>], duty: &[f64]) -> f64 {
 }
 
 fn size(F: SpatialForce<f64>) -> f64 {
-    F.to_array().into_iter().map(f64::abs).fold(0.0, f64::max)
+    largest(F.to_array().into_iter().map(f64::abs))
 }
 
 fn wrench(torque: [f64; 3], force: [f64; 3]) -> SpatialForce<f64> {
@@ -281,7 +282,7 @@ proptest! {
         if let Some(least) = best_corner(&columns, &cost, torque) {
             prop_assert!(s.missing.torque.norm() < 1e-10, "{:?}", s.missing);
             let takes = propellant(&set, &s.duty);
-            prop_assert!((takes - least).abs() < 1e-10, "{takes}, not {least}");
+            prop_assert!((takes - least).abs() < 1e-13, "{takes}, not {least}");
         } else {
             let (mut with_share, mut cost) = (columns.clone(), vec![0.0; 8]);
             with_share.push(-torque);
@@ -290,8 +291,8 @@ proptest! {
             // The least share of any axis that torque is wanted about.
             let got = torque - s.missing.torque;
             let shares = torque.to_array().into_iter().zip(got.to_array()).map(|(w, g)| g / w);
-            let least = shares.fold(1.0, f64::min);
-            prop_assert!(least > share - 1e-9, "{least}, not {share}");
+            let least = shares.fold(1.0, smaller);
+            prop_assert!(least > share - 1e-13, "{least}, not {share}");
         }
     }
 

@@ -1,13 +1,14 @@
 //! The closed form with base attitude and system centre of mass held.
 
-use crate::arms::{
-    atlas_class, atlas_class_with_offset, cases, cube, difference, tool_from_centre_of_mass,
-    two_arms, upright_arm,
-};
 use proptest::prelude::*;
 use wrasse_dynamics::{Frame, Robot};
 use wrasse_flight::inverse_kinematics::{ArmChain, ClosedForm, SphericalRevoluteSpherical};
 use wrasse_spatial::{Mat3, Pose, Quat, Vec3, vec3};
+use wrasse_testing::arms::{
+    atlas_class, atlas_class_with_offset, cases, cube, difference, tool_from_centre_of_mass,
+    two_arms, upright_arm,
+};
+use wrasse_testing::{larger, largest};
 
 /// Largest pose error, largest number of passes, and number of solutions, at the pose of `q`.
 fn round_trip<const J: usize>(
@@ -24,7 +25,7 @@ fn round_trip<const J: usize>(
     for solution in solutions.iter() {
         let found = tool_from_centre_of_mass(robot, tool, &arm.put(&solution.q, q));
         let (off, turned) = difference(&found, &X_AE);
-        worst = worst.max(off).max(turned);
+        worst = largest([worst, off, turned]);
         passes = passes.max(solution.passes);
         count += 1;
     }
@@ -221,7 +222,7 @@ fn the_start_postures_are_found_again_from_their_tool_poses() {
         let outcome = arm.solve(&X_BE, arm.arm_angle(&q).0, &q);
         let ClosedForm::Solved(solutions) = outcome else { panic!("{outcome:?}") };
         let nearest = solutions.nearest().unwrap();
-        worst = (0..7).fold(worst, |m, j| m.max((nearest.q[j] - q[j]).abs()));
+        worst = larger(worst, largest((0..7).map(|j| (nearest.q[j] - q[j]).abs())));
     }
     assert!(worst < 1e-10, "measured 2.2e-11: {worst:e}");
 }

@@ -1,12 +1,13 @@
 //! The closed form on a fixed base.
 
-use crate::arms::{X, Y, Z, atlas_class, cases, difference, tool_from_base, upright_arm};
 use proptest::prelude::*;
 use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, Robot};
 use wrasse_flight::inverse_kinematics::{
     ClosedForm, NotThisKind, Reference, Solutions, SphericalRevoluteSpherical,
 };
 use wrasse_spatial::{Mat3, Pose, vec3};
+use wrasse_testing::arms::{X, Y, Z, atlas_class, cases, difference, tool_from_base, upright_arm};
+use wrasse_testing::{largest, smaller};
 
 #[track_caller]
 #[allow(clippy::large_types_passed_by_value, reason = "the outcome ends here")]
@@ -37,12 +38,12 @@ fn round_trip<const J: usize>(
         let (again, _) = arm.arm_angle(&solution.q);
         let (sine, _) = (again - arm_angle).sin_cos();
         // Near the reference axis the arm angle is known to ε/0.02 only.
-        worst = worst.max(off).max(turned).max(sine.abs() * 0.02);
+        worst = largest([worst, off, turned, sine.abs() * 0.02]);
     }
     let nearest = solutions.nearest().expect("solved");
-    let way = (0..7).fold(0.0_f64, |m, i| m.max((nearest.q[i] - q[i]).abs()));
+    let way = largest((0..7).map(|i| (nearest.q[i] - q[i]).abs()));
     // Near a singular posture the joints are known to the rounding divided by the sine.
-    let sine = nearest.sines.into_iter().fold(1.0, f64::min);
+    let sine = nearest.sines.into_iter().fold(1.0, smaller);
     (worst, different(&solutions), way * sine)
 }
 
@@ -117,7 +118,7 @@ proptest! {
         let solutions = solved(arm.solve(&arm.tool_pose(&q), arm_angle, &q));
         let places: Vec<_> =
             solutions.iter().map(|s| tool_from_base(&robot, &elbow, &s.q).translation).collect();
-        let spread = places.iter().fold(0.0_f64, |m, p| m.max((*p - places[0]).norm()));
+        let spread = largest(places.iter().map(|p| (*p - places[0]).norm()));
         prop_assert!(spread < 1e-14, "measured 1.2e-15: {spread:e}");
     }
 }
@@ -170,7 +171,7 @@ fn the_stretched_and_the_folded_arm_are_solved_with_a_sine_of_zero() {
             let X_BE = tool_from_base(&robot, &tool, &q);
             for solution in solved(arm.solve(&X_BE, arm.arm_angle(&q).0, &q)).iter() {
                 let (off, turned) = difference(&tool_from_base(&robot, &tool, &solution.q), &X_BE);
-                worst = worst.max(off).max(turned);
+                worst = largest([worst, off, turned]);
                 // The end itself, not the root of the rounding of the distance.
                 assert!(solution.sines[1] < 1e-15, "measured 1.3e-16: {:e}", solution.sines[1]);
             }
@@ -233,7 +234,7 @@ fn the_nearest_solution_is_the_one_that_was_gone_from() {
     let near = q.map(|q| q + 0.05);
     let solutions = solved(arm.solve(&X_BE, arm.arm_angle(&q).0, &near));
     let nearest = solutions.nearest().unwrap();
-    let way = (0..7).fold(0.0_f64, |m, i| m.max((nearest.q[i] - q[i]).abs()));
+    let way = largest((0..7).map(|i| (nearest.q[i] - q[i]).abs()));
     assert!(way < 1e-14, "measured 2.3e-15: {way:e}");
 
     let mut travel = [None; 7];
@@ -258,7 +259,7 @@ fn single_precision_reaches_the_pose_to_its_own_rounding() {
         panic!("no solution");
     };
     let nearest = solutions.nearest().unwrap();
-    let way = (0..7).fold(0.0_f32, |m, i| m.max((nearest.q[i] - q[i]).abs()));
+    let way = largest((0..7).map(|i| f64::from((nearest.q[i] - q[i]).abs())));
     assert!(way < 3e-6, "measured 3.6e-7: {way:e}");
 }
 

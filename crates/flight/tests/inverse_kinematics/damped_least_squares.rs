@@ -1,8 +1,5 @@
 //! Damped least squares for any arm.
 
-use crate::arms::{
-    X, atlas_class, cases, cube, difference, tool_from_base, tool_from_centre_of_mass, two_arms,
-};
 use proptest::prelude::*;
 use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, Robot, State, kinematics};
 use wrasse_flight::inverse_kinematics::{
@@ -10,6 +7,9 @@ use wrasse_flight::inverse_kinematics::{
 };
 use wrasse_hardware::JointLimits;
 use wrasse_spatial::{Mat3, Pose, Quat, Vec3, vec3};
+use wrasse_testing::arms::{
+    X, atlas_class, cases, cube, difference, tool_from_base, tool_from_centre_of_mass, two_arms,
+};
 
 const FINE: DampedLeastSquares<f64> =
     DampedLeastSquares { position_tolerance: 1e-9, rotation_tolerance: 1e-9, iterations: 200 };

@@ -1,10 +1,10 @@
 //! The attitude law on a rigid body: the closed loop is the oscillator that its numbers name.
 
-use crate::random_robot::Random;
-use crate::worst::Worst;
 use std::f64::consts::PI;
 use wrasse_flight::{Tuning, attitude_acceleration};
 use wrasse_spatial::{Quat, Sym3, Vec3, turned_by, vec3};
+use wrasse_testing::random_robot::Random;
+use wrasse_testing::{Worst, larger};
 
 const BANDWIDTH: f64 = 0.3;
 
@@ -97,7 +97,7 @@ fn frequency_and_decay_are_the_named_ones() {
             swings.push(0.0);
         }
         let swing = swings.last_mut().unwrap();
-        *swing = swing.max(after.abs());
+        *swing = larger(*swing, after.abs());
     }
     let root = (1.0 - zeta * zeta).sqrt();
     let (mut period, mut ratio) = (Worst::none(), Worst::none());
@@ -127,7 +127,7 @@ fn any_error_is_pushed_back_and_settles() {
         let mut farthest = 0.0_f64;
         for _ in 0..6000 {
             body.step(0.01);
-            farthest = farthest.max(body.off().norm());
+            farthest = larger(farthest, body.off().norm());
         }
         assert!(farthest <= r.norm(), "it goes the long way: {farthest} of {}", r.norm());
         last.see(body.off().norm() / r.norm());

@@ -1,6 +1,6 @@
 //! A checked period is the period, or none at all.
 
-use crate::spanning_states::{servicer, setup, states};
+use super::spanning_states::{servicer, setup, states};
 use wrasse_dynamics::{Robot, State};
 use wrasse_flight::{
     ArmLaw, ArmReference, OutOfBounds, PeriodFault, PeriodMemory, Quantity, checked_period,

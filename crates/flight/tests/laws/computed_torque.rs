@@ -1,7 +1,5 @@
 //! Computed torque: forward dynamics under its torques returns the acceleration that was commanded.
 
-use crate::random_robot::{JOINTS, Random, Recipe, Scene};
-use crate::worst::Worst;
 use std::array;
 use wrasse_dynamics::{
     BaseMode, BodyId, Frame, Joint, JointDrive, JointKind, MassProperties, PerBody, Robot, State,
@@ -10,6 +8,8 @@ use wrasse_dynamics::{
 use wrasse_flight::{ArmLaw, Tuning, computed_torque};
 use wrasse_hardware::SetPoint;
 use wrasse_spatial::{Pose, SpatialForce, SpatialVelocity, Sym3, Vec3, vec3};
+use wrasse_testing::random_robot::{JOINTS, Random, Recipe, Scene};
+use wrasse_testing::{Worst, largest};
 
 /// Trees of one to nine joints on one to three arms.
 fn scenes() -> impl Iterator<Item = Scene> {
@@ -144,9 +144,9 @@ fn a_terrestrial_law_on_a_free_flyer_multiplies_accelerations_by_the_ratio_of_in
         let found = accelerations(&s.robot, &state, &tau, BaseMode::Free);
         let k = kinematics(&s.robot, &state);
         let reduced = free_floating_dynamics(&s.robot, &mass_matrix(&k), &bias_force(&k));
-        let largest = tau.iter().fold(0.0, |m: f64, t| m.max(t.abs()));
+        let most = largest(tau.iter().map(|t| t.abs()));
         for (effort, tau) in reduced.effort(&s.robot, &found).into_iter().zip(tau) {
-            worst.see((effort - tau).abs() / largest);
+            worst.see((effort - tau).abs() / most);
         }
     }
     worst.is_below(3e-14);

@@ -1,7 +1,5 @@
 //! The coupling of base and joints: whatever torque the base gets, the joints get their accelerations.
 
-use crate::random_robot::{Random, Recipe, Scene};
-use crate::worst::Worst;
 use wrasse_dynamics::{
     BaseMode, BodyId, JointDrive, PerBody, State, driven_dynamics, kinematics, momentum,
 };
@@ -10,6 +8,8 @@ use wrasse_flight::{
 };
 use wrasse_hardware::SetPoint;
 use wrasse_spatial::{SpatialForce, SpatialInertia, SpatialVelocity, Vec3};
+use wrasse_testing::Worst;
+use wrasse_testing::random_robot::{Random, Recipe, Scene};
 
 /// Trees of one to nine joints on one to three arms, the base not turning.
 fn scenes() -> impl Iterator<Item = Scene> {

@@ -1,9 +1,7 @@
 //! The second route to the accelerations of resolved motion: the law run once more over dual numbers,
 //! on a vehicle that moves as the law believes it to.
 
-use crate::postures::{Case, J, free_use};
-use crate::random_robot::Random;
-use crate::worst::Worst;
+use super::postures::{Case, J, free_use};
 use std::array;
 use wrasse_dynamics::Frame;
 use wrasse_flight::{
@@ -11,6 +9,8 @@ use wrasse_flight::{
     resolved_motion,
 };
 use wrasse_spatial::{Dual, Mat3, Pose, Real, SpatialMomentum, SpatialVelocity, Vec3, vec3};
+use wrasse_testing::random_robot::Random;
+use wrasse_testing::{Worst, larger, largest};
 
 type D = Dual<f64>;
 
@@ -75,7 +75,7 @@ fn off(case: &Case, joints: &JointUse<f64, J>, random: &mut Random) -> f64 {
     let mut worst = Worst::none();
     worst.see_all(qddot, motion.qddot);
     worst.see_all(A_NB_B, motion.A_NB_B.to_array());
-    worst.largest() / motion.qddot.iter().fold(1.0, |m: f64, a| m.max(a.abs()))
+    worst.largest() / larger(1.0, largest(motion.qddot.iter().map(|a| a.abs())))
 }
 
 /// Free, drifting to a posture, slowed down at the rate limits, and damped everywhere: each changes

@@ -1,9 +1,6 @@
 //! The torque fed forward: what holds the attitude by other routes, and what the printed forms miss.
 
-use crate::arms::{X, Y, Z, atlas_class, cube};
-use crate::postures::{Arm, J};
-use crate::random_robot::{Recipe, Scene};
-use crate::worst::Worst;
+use super::postures::{Arm, J};
 use std::array;
 use wrasse_dynamics::{
     BaseMode, BodyId, GeneralizedVelocity, Joint, JointDrive, MassProperties, PerBody, Robot,
@@ -17,6 +14,9 @@ use wrasse_flight::{
 };
 use wrasse_hardware::SetPoint;
 use wrasse_spatial::{Pose, SpatialForce, SpatialMomentum, SpatialVelocity, Vec3, vec3};
+use wrasse_testing::arms::{X, Y, Z, atlas_class, cube};
+use wrasse_testing::random_robot::{Recipe, Scene};
+use wrasse_testing::{Worst, larger};
 
 fn set_points<const K: usize>(
     q: &[f64; K],
@@ -109,7 +109,7 @@ fn mirrored_arms_cancel_each_other_but_about_the_normal_of_the_mirror() {
     let mut worst = Worst::none();
     for kind in [Feedforward::Exact, Feedforward::AsPrinted, Feedforward::AsPrintedSystemCm] {
         let torque = feedforward_torque(&robot, kind, &joints);
-        let off = torque.dot(X).abs().max(torque.dot(Z).abs());
+        let off = larger(torque.dot(X).abs(), torque.dot(Z).abs());
         worst.see(off);
         assert!(torque.dot(Y).abs() > 1.0, "{kind:?}: {torque:?}");
     }

@@ -1,6 +1,5 @@
 //! Flights of the ATLAS-class servicer, with everything sensed as the computer believes it.
 
-use crate::arms::{atlas_class, cube};
 use wrasse_dynamics::{Robot, State};
 use wrasse_flight::{
     ArmLaw, Assignment, Axes, BadPhase, BaseControlSetup, Command, Feedforward, FlightComputer,
@@ -8,6 +7,7 @@ use wrasse_flight::{
 };
 use wrasse_hardware::{ActuatorReadings, JointLimits};
 use wrasse_spatial::{Pose, Quat, Real, Scalar, SpatialVelocity, Vec3, vec3};
+use wrasse_testing::arms::{atlas_class, cube};
 
 /// Control period (s).
 pub(crate) const PERIOD: f64 = 0.01;

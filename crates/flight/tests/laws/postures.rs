@@ -1,10 +1,10 @@
 //! Arms in random postures, beliefs about the vehicles that carry them, and what is asked of them.
 
-use crate::arms::{atlas_class, cube, two_arms, upright_arm};
-use crate::random_robot::Random;
 use wrasse_dynamics::{BodyId, Frame, MassProperties, Robot};
 use wrasse_flight::{ArmLaw, Assignment, Axes, Belief, JointUse, Task};
 use wrasse_spatial::{SpatialMomentum, SpatialVelocity, vec3};
+use wrasse_testing::arms::{atlas_class, cube, two_arms, upright_arm};
+use wrasse_testing::random_robot::Random;
 
 /// Room for the joints of any of the arms.
 pub(crate) const J: usize = 9;

@@ -1,8 +1,6 @@
 //! Resolved motion: the tool moves as wanted once the base answers by momentum alone.
 
-use crate::postures::{Arm, Case, J, LAWS, free_use};
-use crate::random_robot::Random;
-use crate::worst::Worst;
+use super::postures::{Arm, Case, J, LAWS, free_use};
 use std::array;
 use wrasse_dynamics::{BodyId, Cholesky, Frame, State, kinematics, momentum};
 use wrasse_flight::{
@@ -10,6 +8,8 @@ use wrasse_flight::{
     believed_base_response, joint_rates, resolved_motion, task_jacobian,
 };
 use wrasse_spatial::{Pose, Quat, SpatialMomentum, SpatialVelocity, Vec3};
+use wrasse_testing::random_robot::Random;
+use wrasse_testing::{Worst, larger, largest};
 
 impl Case {
     fn rates(&self, joints: &JointUse<f64, J>) -> Resolved<f64, J> {
@@ -93,7 +93,7 @@ fn difference_error(
     worst.see_all(qddot, motion.qddot);
     let A_NB_B = (after.V_NB_B - before.V_NB_B) * (0.5 / h);
     worst.see_all(A_NB_B.to_array(), motion.A_NB_B.to_array());
-    worst.largest() / motion.qddot.iter().fold(1.0, |m: f64, a| m.max(a.abs()))
+    worst.largest() / larger(1.0, largest(motion.qddot.iter().map(|a| a.abs())))
 }
 
 fn dot(a: &[f64; J], b: &[f64; J]) -> f64 {
@@ -160,7 +160,7 @@ fn accelerations_are_the_derivatives_of_rates_at_their_limit() {
     let (mut worst, mut random) = (Worst::none(), Random(6));
     for case in Case::all() {
         let free = case.rates(&free_use()).qdot;
-        let fastest = free.iter().fold(0.0, |m: f64, rate| m.max(rate.abs()));
+        let fastest = largest(free.iter().map(|rate| rate.abs()));
         let joints = JointUse { rate_limit: [0.5 * fastest; J], ..free_use() };
         worst.see(case.derivative_error(&joints, random.twist(0.1)));
     }
@@ -261,8 +261,7 @@ fn rate_limits_slow_all_joints_down_together() {
         let free = case.rates(&free_use()).qdot;
         let rate_limit = array::from_fn(|j| if j % 2 == 0 { 0.02 } else { 0.05 });
         let limited = case.rates(&JointUse { rate_limit, ..free_use() });
-        let over =
-            |qdot: &[f64; J]| (0..J).map(|j| qdot[j].abs() / rate_limit[j]).fold(0.0, f64::max);
+        let over = |qdot: &[f64; J]| largest((0..J).map(|j| qdot[j].abs() / rate_limit[j]));
         let share = (1.0 / over(&free)).min(1.0);
         off.see_all(limited.qdot, free.map(|rate| rate * share));
         assert!(over(&limited.qdot) <= 1.0 + 1e-15, "{}", over(&limited.qdot));

@@ -1,11 +1,11 @@
 //! Near singular postures the inverse is damped: rates and accelerations stay bounded.
 
-use crate::postures::{Arm, Case, J, LAWS, free_use};
-use crate::random_robot::Random;
-use crate::worst::Worst;
+use super::postures::{Arm, Case, J, LAWS, free_use};
 use std::f64::consts::PI;
 use wrasse_flight::{Assignment, Axes, Belief, Task, WantedMotion, joint_rates, resolved_motion};
 use wrasse_spatial::{SpatialMomentum, SpatialVelocity};
+use wrasse_testing::Worst;
+use wrasse_testing::random_robot::Random;
 
 /// Positions of the joints that carry the tool, each at or near one of the angles that line axes up:
 /// stretched, folded, wrist or shoulder aligned, and all of them together.

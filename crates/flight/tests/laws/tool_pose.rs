@@ -1,14 +1,14 @@
 //! Joint positions for a tool pose: where the tool then is, with the arm angle kept, within travel.
 
-use crate::arms::difference;
-use crate::postures::{Arm, J, LAWS};
-use crate::random_robot::Random;
-use crate::worst::Worst;
+use super::postures::{Arm, J, LAWS};
 use wrasse_dynamics::{State, kinematics};
 use wrasse_flight::inverse_kinematics::SphericalRevoluteSpherical;
 use wrasse_flight::{ArmLaw, Axes, joints_for_tool};
 use wrasse_hardware::JointLimits;
 use wrasse_spatial::{Pose, Vec3};
+use wrasse_testing::arms::difference;
+use wrasse_testing::random_robot::Random;
+use wrasse_testing::{Worst, larger};
 
 const FREE: [JointLimits<f64>; J] = [JointLimits { travel: None, rate: None, effort: None }; J];
 
@@ -70,7 +70,7 @@ fn the_tool_gets_there_and_the_arm_keeps_its_angle() {
         let X = task.tool_at(&task.nearby());
         let q = task.solve(&X, &FREE).unwrap();
         let (m, rad) = difference(&task.tool_at(&q), &X);
-        off.see(m.max(rad));
+        off.see(larger(m, rad));
         turned.see((task.arm_angle(&q) - task.arm_angle(&task.state.q)).abs());
     }
     off.is_below(1e-14);
@@ -95,7 +95,7 @@ fn no_joint_leaves_its_travel() {
         let q = task.solve(&X, &limits).unwrap();
         assert!((low..=high).contains(&q[j]), "{} from {low} to {high}", q[j]);
         let (m, rad) = difference(&task.tool_at(&q), &X);
-        off.see(m.max(rad));
+        off.see(larger(m, rad));
     }
     off.is_below(1e-14);
 }

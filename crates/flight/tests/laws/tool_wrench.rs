@@ -1,10 +1,11 @@
 //! Standing against a wrench on the tool, shown by forward dynamics.
 
-use crate::arms::atlas_class;
-use crate::flights::{at_rest, robot};
+use super::flights::{at_rest, robot};
 use wrasse_dynamics::{BaseMode, JointDrive, PerBody, driven_dynamics, kinematics};
 use wrasse_flight::{ArmLaw, against_tool_wrench};
 use wrasse_spatial::{SpatialForce, Vec3, vec3};
+use wrasse_testing::arms::atlas_class;
+use wrasse_testing::largest;
 
 /// Accelerations of joints and base (rad/s²) when the world pushes and the law stands against it.
 fn answer(law: ArmLaw, mode: BaseMode, with_base_torque: bool) -> (f64, Vec3<f64>) {
@@ -19,7 +20,7 @@ fn answer(law: ArmLaw, mode: BaseMode, with_base_torque: bool) -> (f64, Vec3<f64
     }
     let drives = effort.map(JointDrive::Effort);
     let found = driven_dynamics(&kinematics(&robot, &state), &drives, mode, &on_bodies);
-    let joints = found.nudot.joints.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let joints = largest(found.nudot.joints.iter().map(|x| x.abs()));
     (joints, found.nudot.base.angular)
 }
 

@@ -2,8 +2,6 @@
 #![allow(clippy::print_stdout, reason = "prints what was measured, under --nocapture")]
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
-#[path = "../figures/mod.rs"]
-mod figures;
 mod second_routes;
 mod the_book;
 mod what_comes_of_them;

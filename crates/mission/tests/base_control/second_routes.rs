@@ -6,6 +6,7 @@ use wrasse_hardware::STANDARD_GRAVITY;
 use wrasse_mission::run;
 use wrasse_rehearsal::{CaseOutcome, RunOptions, Source};
 use wrasse_spatial::{Sym3, Vec3, vec3};
+use wrasse_testing::{larger, largest};
 use wrasse_vehicle::{JOINTS, find_vehicle};
 
 /// Matter of the load that the missions with 200 kg hold.
@@ -53,14 +54,14 @@ fn momentum_of_the_arm_and_momentum_of_wheels_or_cmgs_add_up_to_nothing() {
             let actuators = &equipment.actuators;
             actuators.wheel_momentum(&speeds) + actuators.cmg_momentum(&angles)
         };
-        let (mut largest, mut worst) = (0.0_f64, 0.0_f64);
+        let (mut most, mut worst) = (0.0_f64, 0.0_f64);
         for at in 0..flown.telemetry.time.len() {
             let arm = of_the_joints(&robot, &vehicle.joint_names, flown, at);
-            largest = largest.max(arm.norm());
-            worst = worst.max((arm + inside(at)).norm());
+            most = larger(most, arm.norm());
+            worst = larger(worst, (arm + inside(at)).norm());
         }
-        println!("{name}: {largest} N·m·s, off by {:.1e} of it", worst / largest);
-        assert!(largest > 0.5 && worst < bound * largest, "{name}: {worst} of {largest}");
+        println!("{name}: {most} N·m·s, off by {:.1e} of it", worst / most);
+        assert!(most > 0.5 && worst < bound * most, "{name}: {worst} of {most}");
     }
 }
 
@@ -72,7 +73,7 @@ fn momentum_in_wheels_and_cmgs_stands_in_the_ledger_and_the_sum_stays() {
         let l = &case(name, "").ledger;
         let stored = [Source::Wheels, Source::Cmgs].map(|s| l.end.stored[s as usize].norm());
         assert!(stored.iter().any(|h| *h > 1e-9), "{name}: nothing stored");
-        let sum = l.end.angular.to_array().iter().fold(0.0, |most: f64, h| most.max(h.abs()));
+        let sum = largest(l.end.angular.to_array().map(f64::abs));
         println!("{name}: {sum:.1e} N·m·s");
         assert!(sum < 1e-12, "{name}: nothing from outside, and {:?}", l.end.angular);
     }

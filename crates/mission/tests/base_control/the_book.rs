@@ -1,9 +1,9 @@
 //! The guide to base control tells what its missions do.
 
-use crate::figures::Page;
 use crate::{case, degrees, fly, metric, said, text_of};
 use wrasse_hardware::STANDARD_GRAVITY;
 use wrasse_rehearsal::{CaseOutcome, Source};
+use wrasse_testing::{Page, largest, smaller};
 
 fn turned(case: &CaseOutcome) -> f64 {
     degrees(case, "base.rotation.max")
@@ -150,6 +150,6 @@ fn the_guide_tells_the_rest(page: &mut Page) {
     let good = seeds.map(|seed| seed[0]);
     page.says(
         "With 3 arcsec and these seeds it is off by {} to {} mm.",
-        &[good.iter().fold(f64::MAX, |a, &b| a.min(b)), good.iter().fold(0.0, |a, &b| a.max(b))],
+        &[good.into_iter().fold(f64::INFINITY, smaller), largest(good)],
     );
 }

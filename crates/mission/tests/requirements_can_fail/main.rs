@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use table::ROWS;
 use wrasse_mission::{Mission, read_mission};
 use wrasse_rehearsal::{CaseOutcome, RunOptions, Verdict, fly_sample, plan_samples, run_case};
+use wrasse_testing::largest;
 
 /// A mission of this text with these requirements; vehicles lie beside it.
 fn read(text: &str, requirements: &[String]) -> Mission {
@@ -104,8 +105,7 @@ fn a_drive_that_is_asked_for_more_than_it_has_fails_its_effort_use() {
     assert!(!flown.verdicts[0].pass, "{:?}", flown.verdicts[0]);
     // What is given stays within: 230 N·m.
     let given = flown.telemetry.channels.iter().find(|c| c.name == "joint.joint4.effort");
-    let given =
-        given.expect("it is drawn").values.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let given = largest(given.expect("it is drawn").values.iter().map(|x| x.abs()));
     assert!(given <= 230.0, "{given}");
 }
 

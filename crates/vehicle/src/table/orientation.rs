@@ -92,7 +92,7 @@ mod tests {
             let by_quaternion = reading.pose(&[], [0.0; 3], Some(&quaternion));
             let by_angles = reading.pose(&[], [0.0; 3], Some(&OrientationFile::RpyDeg(rpy)));
             let off = (by_quaternion.rotation - by_angles.rotation).rows.map(Vec3::norm);
-            let off = off.into_iter().fold(0.0, f64::max);
+            let off = wrasse_testing::largest(off);
             assert!(off < 4.0 * f64::EPSILON, "measured 1.6e-16: {off:e}");
         }
         assert!(reading.found.into_complaints().is_empty());

@@ -4,8 +4,8 @@
 
 use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, MassProperties, Robot, State};
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Sym3, Vec3, vec3};
-use wrasse_testing::{OneSystem, OneSystemSetup};
 use wrasse_world::{BaseAttitude, Equipment, Stepper};
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 /// Joints of both arms.
 pub(crate) const J: usize = 4;

@@ -8,8 +8,8 @@ use wrasse_hardware::{
     Thruster, WHEELS,
 };
 use wrasse_spatial::{SpatialVelocity, Sym3, Vec3, vec3};
-use wrasse_testing::{OneSystem, OneSystemSetup};
 use wrasse_world::{BaseAttitude, Equipment, Stepper};
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 /// A wheel of 0.05 kg·m² without friction.
 pub(crate) fn wheel(axis_B: Vec3<f64>) -> ReactionWheel<f64> {

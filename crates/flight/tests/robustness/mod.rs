@@ -1,0 +1,4 @@
+//! What must hold whatever comes in.
+
+mod extreme_numbers;
+mod no_allocation;
