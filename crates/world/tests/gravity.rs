@@ -12,8 +12,8 @@ use wrasse_dynamics::{
 };
 use wrasse_hardware::{ActuatorCommand, SetPointMotion};
 use wrasse_spatial::{Pose, SpatialForce, SpatialVelocity, Sym3, Vec3, vec3};
-use wrasse_testing::{OneSystem, OneSystemSetup};
 use wrasse_world::{BaseAttitude, Drive, Environment, Equipment, FreeBody, Source, Stepper};
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 const G: Vec3<f64> = Vec3 { x: 1.2, y: -0.7, z: -9.6 };
 const EFFORTS: [f64; J] = [0.9, -0.5, 0.7, -0.3];
@@ -51,7 +51,7 @@ fn a_tree_that_falls_moves_as_in_free_space_beside_its_fall() {
             (v - u - G * 2.0).norm(),
         ];
         all.extend((0..J).flat_map(|j| [a.q[j] - b.q[j], a.v[j] - b.v[j]]).map(f64::abs));
-        all.into_iter().fold(0.0, f64::max)
+        wrasse_testing::largest(all)
     });
     assert!(apart[0] < 1e-8 && apart[1] < apart[0] / 14.0, "{apart:?}");
 }

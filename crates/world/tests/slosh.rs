@@ -13,8 +13,8 @@ use sloshing::{
 use wrasse_dynamics::{BodyId, PerBody, State};
 use wrasse_hardware::{ActuatorCommand, Slosh};
 use wrasse_spatial::{SpatialForce, SpatialVelocity, Vec3, vec3};
-use wrasse_testing::OneSystem;
 use wrasse_world::{BaseAttitude, Course, Drive, Equipment, SloshPendulum, Source};
+use wrasse_world_testing::OneSystem;
 
 /// A push on the base, aside and turning, in base axes.
 fn push() -> SpatialForce<f64> {

@@ -6,8 +6,8 @@
 use wrasse_dynamics::{BodyId, Frame, MassProperties, PerBody, Robot, State, kinematics};
 use wrasse_hardware::{ActuatorCommand, Slosh, Tank, TankShape};
 use wrasse_spatial::{Pose, SpatialForce, Sym3, Vec3, vec3};
-use wrasse_testing::{OneSystem, OneSystemSetup};
 use wrasse_world::{BaseAttitude, Equipment, SloshPendulum, Stepper};
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 const J: usize = 4;
 const UP: Vec3<f64> = Vec3 { x: 0.0, y: 0.0, z: 1.0 };

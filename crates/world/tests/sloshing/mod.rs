@@ -4,8 +4,8 @@
 use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, MassProperties, Robot, State};
 use wrasse_hardware::{Slosh, Tank, TankShape};
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Sym3, Vec3, vec3};
-use wrasse_testing::{OneSystem, OneSystemSetup};
 use wrasse_world::{BaseAttitude, Equipment, SloshPendulum, Stepper};
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 /// Room for two joints of a pendulum, and two more.
 pub(crate) const J: usize = 4;
