@@ -3,7 +3,7 @@
 use crate::input::{Failure, complain, text_of};
 use crate::interrupt::{at_interrupt, nothing_kept};
 use crate::progress::Bar;
-use crate::results::{hand_over, results_folder};
+use crate::results::{hand_over, provenance, results_folder};
 use crate::{YES, bad, no};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ use wrasse_rehearsal::{End, RunOptions};
 
 /// Fly a mission, judge its requirements, write the report.
 ///
-/// Writes report.html, telemetry.parquet and summary.json to out/NAME. Exit code 0: all requirements
+/// Writes report.html, telemetry.parquet and summary.json to out/NAME (what they hold: the book, Results). Exit code 0: all requirements
 /// hold; 1: one does not, or the planning found that the path is infeasible; 2: bad input, or a
 /// number broke down.
 #[derive(Debug, Args)]
@@ -24,6 +24,9 @@ pub(crate) struct Run {
     /// Folder for the results, in place of out/NAME.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Write the telemetry as CSV too.
+    #[arg(long)]
+    csv: bool,
     /// Print the summary as JSON in place of the table.
     #[arg(long)]
     json: bool,
@@ -53,8 +56,10 @@ impl Run {
         let options = RunOptions { error_estimate: self.error_estimate };
         let outcome = run(&mission, options, &mut |progress| bar.show(progress));
         bar.done();
-        let report = write_results(&outcome, &folder).map(|written| written.report);
-        hand_over(report, self.json, || summary_json(&outcome), || verdict_table(&outcome))?;
+        let whence = provenance(&mission);
+        let report = write_results(&outcome, &whence, &folder, self.csv).map(|files| files.report);
+        let summary = || summary_json(&outcome, &whence);
+        hand_over(report, self.json, summary, || verdict_table(&outcome))?;
         if outcome.cases.iter().any(|case| matches!(case.end, End::Breakdown { .. })) {
             return Ok(bad());
         }

@@ -3,7 +3,7 @@
 use crate::input::{Failure, text_of};
 use crate::interrupt::{at_interrupt, nothing_kept};
 use crate::progress::Bar;
-use crate::results::{hand_over, results_folder};
+use crate::results::{hand_over, provenance, results_folder};
 use crate::{YES, bad, threads};
 use clap::{Args, ValueEnum};
 use std::num::NonZeroUsize;
@@ -77,8 +77,10 @@ impl Size {
         let bar = Bar::new();
         let outcome = size(&study, threads(self.threads), &mut |p| bar.show(p));
         bar.done();
-        let report = write_study(&outcome, &folder).map(|written| written.report);
-        hand_over(report, self.json, || study_json(&outcome), || study_table(&outcome))?;
+        let whence = provenance(study.mission());
+        let report = write_study(&outcome, &whence, &folder).map(|written| written.report);
+        let summary = || study_json(&outcome, &whence);
+        hand_over(report, self.json, summary, || study_table(&outcome))?;
         Ok(if outcome.closes { YES } else { bad() })
     }
 }

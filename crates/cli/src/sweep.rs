@@ -3,7 +3,7 @@
 use crate::input::Failure;
 use crate::interrupt::at_interrupt;
 use crate::progress::Bar;
-use crate::results::{hand_over, results_folder};
+use crate::results::{hand_over, provenance, results_folder};
 use crate::run::mission_of;
 use crate::{YES, no, threads};
 use clap::{Args, value_parser};
@@ -44,6 +44,9 @@ pub(crate) struct Sweep {
     /// Folder for the results, in place of out/NAME-sweep.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Write the samples as CSV too.
+    #[arg(long)]
+    csv: bool,
     /// Print the summary as JSON in place of the tables.
     #[arg(long)]
     json: bool,
@@ -73,8 +76,10 @@ impl Sweep {
         // It stays owned until the results are written: nobody else's come between.
         let owned = OwnedFolder::take(&parts)?;
         let outcome = fly(&asked, &owned, &parts)?;
-        let report = write_sweep(&outcome, &folder).map(|written| written.report);
-        hand_over(report, self.json, || sweep_json(&outcome), || sweep_table(&outcome))?;
+        let whence = provenance(&mission);
+        let report = write_sweep(&outcome, &whence, &folder, self.csv).map(|files| files.report);
+        let summary = || sweep_json(&outcome, &whence);
+        hand_over(report, self.json, summary, || sweep_table(&outcome))?;
         let wanted = self.pass_rate.unwrap_or(0.0);
         let reached = outcome.cases.iter().all(|case| case.passed.sure >= wanted);
         Ok(if reached { YES } else { no() })

@@ -44,4 +44,7 @@ pub enum RecordError {
     /// The Parquet writer refused.
     #[error("cannot encode the telemetry: {0}")]
     Parquet(#[from] parquet::errors::ParquetError),
+    /// The CSV writer refused.
+    #[error("cannot encode the table as CSV: {0}")]
+    Csv(#[from] csv::Error),
 }

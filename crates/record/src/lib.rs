@@ -5,24 +5,26 @@
 //! file for the run, the study and the sweep; `wording` is what more than one of them says.
 #![allow(clippy::format_push_string, reason = "`text += &format!(…)` reads as what it does")]
 
+mod columns;
 mod error;
 mod html;
 mod json;
-mod parquet;
 mod place;
 mod plot;
+mod provenance;
 mod results;
 mod terminal;
 mod wording;
 
-pub use self::parquet::run::telemetry_parquet;
-pub use self::parquet::sweep::samples_parquet;
+pub use self::columns::run::{telemetry_csv, telemetry_parquet};
+pub use self::columns::sweep::{samples_csv, samples_parquet};
 pub use error::RecordError;
 pub use html::run::report_html;
 pub use html::study::study_html;
 pub use html::sweep::sweep_html;
 pub use json::{study_json, summary_json, sweep_json};
 pub use place::prepare_place;
+pub use provenance::{FileRecord, Provenance};
 pub use results::{StudyWritten, SweepWritten, Written, write_results, write_study, write_sweep};
 pub use terminal::run::verdict_table;
 pub use terminal::study::study_table;

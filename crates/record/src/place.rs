@@ -12,7 +12,14 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// All names that results have.
-const RESULTS: [&str; 4] = ["report.html", "telemetry.parquet", "samples.parquet", "summary.json"];
+const RESULTS: [&str; 6] = [
+    "report.html",
+    "telemetry.parquet",
+    "telemetry.csv",
+    "samples.parquet",
+    "samples.csv",
+    "summary.json",
+];
 
 /// Keeps others from taking the folder in which it lies for a leftover.
 const LOCK: &str = "lock";

@@ -10,14 +10,15 @@ use wrasse_mission::Outcome;
 use wrasse_study::StudyOutcome;
 use wrasse_sweep::SweepOutcome;
 
+use crate::columns::run::{telemetry_csv, telemetry_parquet};
+use crate::columns::sweep::{samples_csv, samples_parquet};
 use crate::error::RecordError;
 use crate::html::run::report_html;
 use crate::html::study::study_html;
 use crate::html::sweep::sweep_html;
 use crate::json::{study_json, summary_json, sweep_json};
-use crate::parquet::run::telemetry_parquet;
-use crate::parquet::sweep::samples_parquet;
 use crate::place::put_files;
+use crate::provenance::Provenance;
 
 const REPORT: &str = "report.html";
 const SUMMARY: &str = "summary.json";
@@ -53,15 +54,24 @@ pub struct SweepWritten {
     pub summary: PathBuf,
 }
 
-/// Writes `report.html`, `telemetry.parquet` and `summary.json` into `dir`, which is made if need
-/// be; if that cannot be, the former result stays.
+/// Writes `report.html`, `telemetry.parquet` (and `telemetry.csv`, if `as_csv`) and `summary.json` into
+/// `dir`, which is made if need be; if that cannot be, the former result stays.
 ///
 /// # Errors
 /// A place that cannot be written, or telemetry whose channels do not fit together.
-pub fn write_results(outcome: &Outcome, dir: &Path) -> Result<Written, RecordError> {
+pub fn write_results(
+    outcome: &Outcome,
+    provenance: &Provenance,
+    dir: &Path,
+    as_csv: bool,
+) -> Result<Written, RecordError> {
     let columns = ("telemetry.parquet", telemetry_parquet(outcome)?);
-    let files = [(REPORT, report_html(outcome).into_bytes()), columns];
-    let [report, telemetry, summary] = put(files, &summary_json(outcome), dir)?;
+    let mut files = vec![(REPORT, report_html(outcome).into_bytes()), columns];
+    if as_csv {
+        files.push(("telemetry.csv", telemetry_csv(outcome)?));
+    }
+    put(files, &summary_json(outcome, provenance), dir)?;
+    let [report, telemetry, summary] = [REPORT, "telemetry.parquet", SUMMARY].map(|f| dir.join(f));
     Ok(Written { report, telemetry, summary })
 }
 
@@ -69,32 +79,43 @@ pub fn write_results(outcome: &Outcome, dir: &Path) -> Result<Written, RecordErr
 ///
 /// # Errors
 /// A place that cannot be written.
-pub fn write_study(outcome: &StudyOutcome, dir: &Path) -> Result<StudyWritten, RecordError> {
-    let files = [(REPORT, study_html(outcome).into_bytes())];
-    let [report, summary] = put(files, &study_json(outcome), dir)?;
+pub fn write_study(
+    outcome: &StudyOutcome,
+    provenance: &Provenance,
+    dir: &Path,
+) -> Result<StudyWritten, RecordError> {
+    put(vec![(REPORT, study_html(outcome).into_bytes())], &study_json(outcome, provenance), dir)?;
+    let [report, summary] = [REPORT, SUMMARY].map(|file| dir.join(file));
     Ok(StudyWritten { report, summary })
 }
 
-/// Writes `report.html`, `samples.parquet` and `summary.json` into `dir`, which is made if need be.
+/// Writes `report.html`, `samples.parquet` (and `samples.csv`, if `as_csv`) and `summary.json` into `dir`,
+/// which is made if need be.
 ///
 /// # Errors
 /// A place that cannot be written.
-pub fn write_sweep(outcome: &SweepOutcome, dir: &Path) -> Result<SweepWritten, RecordError> {
+pub fn write_sweep(
+    outcome: &SweepOutcome,
+    provenance: &Provenance,
+    dir: &Path,
+    as_csv: bool,
+) -> Result<SweepWritten, RecordError> {
     let columns = ("samples.parquet", samples_parquet(outcome)?);
-    let files = [(REPORT, sweep_html(outcome).into_bytes()), columns];
-    let [report, samples, summary] = put(files, &sweep_json(outcome), dir)?;
+    let mut files = vec![(REPORT, sweep_html(outcome).into_bytes()), columns];
+    if as_csv {
+        files.push(("samples.csv", samples_csv(outcome)?));
+    }
+    put(files, &sweep_json(outcome, provenance), dir)?;
+    let [report, samples, summary] = [REPORT, "samples.parquet", SUMMARY].map(|f| dir.join(f));
     Ok(SweepWritten { report, samples, summary })
 }
 
-/// Puts the files and the summary behind them into `dir`; gives their paths in that order.
-fn put<const FILES: usize, const ALL: usize>(
-    files: [(&str, Vec<u8>); FILES],
+/// Puts the files and the summary behind them into `dir`.
+fn put(
+    mut files: Vec<(&'static str, Vec<u8>)>,
     summary: &Value,
     dir: &Path,
-) -> Result<[PathBuf; ALL], RecordError> {
-    const { assert!(ALL == FILES + 1) };
-    let mut files = Vec::from(files);
+) -> Result<(), RecordError> {
     files.push((SUMMARY, format!("{summary:#}\n").into_bytes()));
-    put_files(&files, dir)?;
-    Ok(std::array::from_fn(|k| dir.join(files[k].0)))
+    put_files(&files, dir)
 }

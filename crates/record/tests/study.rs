@@ -2,7 +2,7 @@
 
 use std::fs;
 use wrasse_hardware::ControlMomentGyro;
-use wrasse_record::{study_html, study_json, study_table, write_study};
+use wrasse_record::{Provenance, study_html, study_json, study_table, write_study};
 use wrasse_spatial::{Vec3, vec3};
 use wrasse_study::{
     Answer, Bounds, Demand, Finding, Flown, HandCheck, SetCard, SetKind, SetVerdict, StudyOutcome,
@@ -248,10 +248,10 @@ fn pair(text: &str) -> [f64; 2] {
 #[test]
 fn results_are_written_together_and_the_summary_reads_back() {
     let folder = tempfile::tempdir().unwrap();
-    let written = write_study(&sample(), folder.path()).unwrap();
+    let written = write_study(&sample(), &Provenance::default(), folder.path()).unwrap();
     let summary: serde_json::Value =
         serde_json::from_str(&fs::read_to_string(&written.summary).unwrap()).unwrap();
-    assert_eq!(summary, study_json(&sample()));
+    assert_eq!(summary, study_json(&sample(), &Provenance::default()));
     assert_eq!(summary["tasks"][0]["verdicts"][2]["suffices"], "with-steering");
     assert_eq!(summary["tasks"][0]["gathered_nm"], 350.0);
     assert!(fs::read_to_string(&written.report).unwrap().starts_with("<!DOCTYPE html>"));

@@ -7,7 +7,9 @@ use std::fs::File;
 use std::io::Write;
 use std::sync::LazyLock;
 use wrasse_mission::{Mission, read_mission, run};
-use wrasse_record::{samples_parquet, sweep_html, sweep_json, sweep_table, write_sweep};
+use wrasse_record::{
+    Provenance, samples_parquet, sweep_html, sweep_json, sweep_table, write_sweep,
+};
 use wrasse_rehearsal::RunOptions;
 use wrasse_sweep::{OwnedFolder, Sweep, SweepOutcome, sweep};
 
@@ -168,13 +170,13 @@ fn tables_and_summary_say_how_many_pass_and_how_sure_that_is() {
     assert!(table.contains("payload.module.mass_kg") && table.contains("flown from"), "{table}");
     let html = sweep_html(outcome);
     assert!(html.contains("Flown from") && html.contains("Flown with"));
-    let json = sweep_json(outcome);
+    let json = sweep_json(outcome, &Provenance::default());
     assert_eq!(json["cases"][0]["drawn"][0]["nominal"], 200.0);
     assert!(json["cases"][0]["requirements"][0]["worst"][0]["drawn"][0]["flown"].is_f64());
     assert_eq!(json["cases"][0]["passed"]["passed"], still.passed.passed);
     assert!(json["cases"][0]["requirements"][0]["values"]["p95"].is_f64());
     let place = tempfile::tempdir().unwrap();
-    let written = write_sweep(outcome, place.path()).unwrap();
+    let written = write_sweep(outcome, &Provenance::default(), place.path(), true).unwrap();
     for file in [written.report, written.samples, written.summary] {
         assert!(std::fs::metadata(file).unwrap().len() > 1000);
     }

@@ -6,10 +6,10 @@ use crate::case::{Case, PayloadStart};
 use std::ops::{Deref, DerefMut};
 use wrasse_dynamics::{BodyId, Dynamics, Frame, Kinematics, MassProperties, State, kinematics};
 use wrasse_hardware::{ActuatorCommand, ActuatorReadings, SetPoint, SetPointMotion};
-use wrasse_spatial::{Pose, Quat, Sym3, Vec3};
+use wrasse_spatial::{Pose, Quat, SpatialVelocity, Sym3, Vec3};
 use wrasse_vehicle::{JOINTS, VehicleRobot};
 use wrasse_world::{
-    AppliedWrench, Drive, Equipment, Failure, GimbalMotors, GraspRefused, GripOffset, Held, HeldId,
+    AppliedWrench, Drive, Equipment, Failure, GraspRefused, GripOffset, Held, HeldId, MotorTorques,
     Saturation, Scene, Stepper, SystemId, SystemSetup,
 };
 
@@ -99,8 +99,8 @@ impl CaseWorld {
     pub(crate) fn actuator_readings(&self) -> ActuatorReadings<f64> {
         self.scene.actuator_readings(self.servicer)
     }
-    pub(crate) fn gimbal_motors(&self) -> GimbalMotors {
-        self.scene.gimbal_motors(self.servicer)
+    pub(crate) fn motor_torques(&self) -> MotorTorques {
+        self.scene.motor_torques(self.servicer)
     }
     pub(crate) fn pose(&self, frame: &Frame<f64>) -> Pose<f64> {
         self.scene.pose(self.servicer, frame)
@@ -126,23 +126,29 @@ impl CaseWorld {
             Some((i, held))
         })
     }
-    /// Where each payload's centre of mass is, and how it is turned.
-    pub(crate) fn payload_poses(&self) -> Vec<(usize, Pose<f64>)> {
+    /// Payloads with the poses and twists of their centres of mass, inertial axes, in the order of the case.
+    pub(crate) fn payload_motions(&self) -> Vec<(usize, Pose<f64>, SpatialVelocity<f64>)> {
         let state = self.state();
         let k: Kinematics<'_, f64, JOINTS> = kinematics(self.robot(), &state);
-        let at_cm = |X: Pose<f64>, i: usize, matter: &MassProperties<f64>| {
-            let p_cm = X.point(matter.M_F_F.centre_of_mass());
-            (i, Pose::new(X.rotation, p_cm))
+        let at_cm = |X: Pose<f64>, V: SpatialVelocity<f64>, matter: &MassProperties<f64>| {
+            let to_cm = X.rotation * matter.M_F_F.centre_of_mass();
+            (Pose::new(X.rotation, X.translation + to_cm), V.shifted_by(to_cm))
         };
-        let held = self.held().map(|(i, held)| at_cm(k.pose(&held.frame), i, &held.matter));
-        let free = self.payloads.iter().enumerate().filter_map(|(i, place)| match place {
-            PayloadPlace::Free(id) => {
-                let body = self.scene.body(*id);
-                Some(at_cm(body.pose(), i, &body.matter))
-            }
-            PayloadPlace::Held(_) => None,
-        });
-        held.chain(free).collect()
+        let mut found = vec![];
+        for (i, held) in self.held() {
+            let (X, V) = at_cm(k.pose(&held.frame), k.velocity(&held.frame), &held.matter);
+            found.push((i, X, V));
+        }
+        for (i, place) in self.payloads.iter().enumerate() {
+            let PayloadPlace::Free(id) = place else { continue };
+            let body = self.scene.body(*id);
+            let (X, V_F) = (body.pose(), body.twist());
+            let V = SpatialVelocity::new(X.rotation * V_F.angular, X.rotation * V_F.linear);
+            let (X, V) = at_cm(X, V, &body.matter);
+            found.push((i, X, V));
+        }
+        found.sort_by_key(|(i, ..)| *i);
+        found
     }
     /// How a payload that floats lies in a tool frame; `None` if it is held.
     pub(crate) fn grip_offset(&self, tool: &Frame<f64>, payload: usize) -> Option<GripOffset> {

@@ -7,7 +7,7 @@ use crate::outcome::snapshot::snapshot;
 use crate::outcome::telemetry::Recorder;
 use crate::outcome::{DemandSample, End, Event, Snapshot, Telemetry};
 use crate::signals::Needs;
-use crate::signals::observe::Observation;
+use crate::signals::observe::{Observation, Track, observe};
 use crate::signals::quantity::Statistics;
 use crate::signals::watch::Watch;
 use crate::simulation::{Observer, Plant, Simulation};
@@ -65,6 +65,10 @@ impl<'a> Observer<TruePlant<'a>> for Reporter<'_> {
         events: &mut Vec<Event>,
     ) {
         self.notices.commanded(flight, command, events);
+        if flight.periods() == 0 {
+            let start = observe(flight, command, &Track::before_the_start(), Needs::ALL);
+            self.recorder.sample(flight, command, &start);
+        }
     }
 
     fn flown(
@@ -80,12 +84,12 @@ impl<'a> Observer<TruePlant<'a>> for Reporter<'_> {
         self.demand.push(DemandSample::of(flight.time(), command, seen));
         let (done, is_last) = (flight.periods(), flight.is_done());
         if done % case.periods_per_sample() == 0 || is_last {
-            self.recorder.sample(flight.time(), case, seen, flight.plant().ledger());
+            self.recorder.sample(flight, command, seen);
         }
         if is_snapshot(done, self.expected, case.snapshots) || is_last {
             let reference = command.reference.X_NE.translation;
             let tips = [seen.X_NE.translation, reference];
-            self.snapshots.push(snapshot(case, world, &world.payload_poses(), tips));
+            self.snapshots.push(snapshot(case, world, tips));
         }
         (self.progress)((done as f64 / self.expected as f64).min(1.0));
     }
@@ -102,7 +106,7 @@ pub(crate) fn fly_for_report(
     let mut flight = Simulation::with_stepper(case, stepper);
     let world = &flight.plant().world;
     let tool = world.pose(flight.computer().tool()).translation;
-    let first = snapshot(case, world, &world.payload_poses(), [tool; 2]);
+    let first = snapshot(case, world, [tool; 2]);
     let mut reporter = Reporter {
         watch: Watch::new(case, Needs::ALL),
         notices: Notices::default(),

@@ -37,7 +37,7 @@ pub use run::{RunOptions, run_case};
 pub use sampled_loops::{REMARK_BELOW, SampledLoop, sampled_loops};
 pub use samples::dispersion::{Dispersion, Distribution, Target};
 pub use samples::{SampleOutcome, SamplePlan, fly_sample, plan_samples};
-pub use signals::quantity::{Kind, Quantity, Statistic, Statistics, is_unit};
+pub use signals::quantity::{Kind, Quantity, Statistic, Statistics, measured_in};
 pub use signals::requirement::{Comparison, Requirement};
 pub use signals::tool_signals::watched_tools;
 pub use signals::watch::Watch;

@@ -179,6 +179,10 @@ impl Study {
     pub fn name(&self) -> &str {
         &self.mission.name
     }
+    /// The mission, with what was laid over it.
+    pub fn mission(&self) -> &Mission {
+        &self.mission
+    }
     /// Number of cases that are flown.
     pub fn flights(&self) -> usize {
         self.cases().len()

@@ -161,7 +161,7 @@ impl<const J: usize> OneSystem<J> {
     }
     /// Torque of each gimbal's motor now (N·m).
     pub fn gimbal_motor_torque(&self) -> [f64; CMGS] {
-        self.scene.gimbal_motors(self.id).now
+        self.scene.motor_torques(self.id).gimbal
     }
     /// Attitude and all other variables: what two flights must share to the bit.
     pub fn bits(&self) -> (Quat<f64>, Vec<f64>) {

@@ -30,7 +30,7 @@ pub use advance::NonFinite;
 pub use command::Saturation;
 pub use couplings::{Bushing, Coupling, FrameMotion};
 pub use effectors::{
-    AppliedWrench, Course, Effector, GimbalMotors, Instant, Load, PeriodCommand, SloshPendulum,
+    AppliedWrench, Course, Effector, Instant, Load, MotorTorques, PeriodCommand, SloshPendulum,
     SloshingTank, Stage, TankWithPropellant,
 };
 pub use effectors::{FlexibleJoint, FlexibleJoints, JointSpring, PassiveJoints};

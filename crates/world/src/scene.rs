@@ -1,7 +1,7 @@
 //! The scene: systems, what couples and what surrounds them, and their motion through time.
 
 use crate::couplings::{Coupled, Coupling};
-use crate::effectors::{AppliedWrench, Effector, GimbalMotors};
+use crate::effectors::{AppliedWrench, Effector, MotorTorques};
 use crate::environment::Environment;
 use crate::events::Watched;
 use crate::free_body::FreeBody;
@@ -292,13 +292,13 @@ impl<const J: usize> Scene<J> {
         }
         readings
     }
-    /// Torques of the gimbals' motors.
-    pub fn gimbal_motors(&self, id: SystemId) -> GimbalMotors {
+    /// Torques of the motors of wheels and gimbals.
+    pub fn motor_torques(&self, id: SystemId) -> MotorTorques {
         let system = self.system(id);
         let motion = (self.state(id).V_NB_B.angular, self.dynamics(id).nudot.base.angular);
-        let mut motors = GimbalMotors::default();
+        let mut motors = MotorTorques::default();
         for (i, effector) in system.effectors.iter().enumerate() {
-            effector.gimbal_motors(&system.row[system.variables.effector(i)], motion, &mut motors);
+            effector.motor_torques(&system.row[system.variables.effector(i)], motion, &mut motors);
         }
         motors
     }

@@ -6,7 +6,7 @@ use std::ops::Range;
 use wrasse_document::{Complaint, Document, UNKNOWN, at, closest};
 use wrasse_dynamics::JointKind;
 use wrasse_rehearsal::{
-    Comparison, Quantity, Requirement, Statistic, is_unit, quantities, watched_tools,
+    Comparison, Quantity, Requirement, Statistic, measured_in, quantities, watched_tools,
 };
 
 /// The quantities that are watched, and what is required of them.
@@ -76,7 +76,7 @@ fn parse(
         .next()
         .ok_or_else(|| bad(format!("the unit of {number} is missing"), number, units.clone()))?;
     let scale = kind.scale_of(unit).ok_or_else(|| {
-        let wrong = if is_unit(unit) { "does not measure" } else { "is no unit of" };
+        let wrong = if measured_in(unit).is_some() { "does not measure" } else { "is no unit of" };
         let message = format!("{unit} {wrong} {}", quantities[quantity].name);
         bad(message, unit, units)
     })?;
@@ -275,7 +275,7 @@ mod tests {
             assert!(!units.is_empty(), "{}", quantity.name);
             assert!(units.iter().any(|unit| quantity.kind.scale_of(unit) == Some(1.0)), "no SI");
             for unit in units {
-                assert!(is_unit(unit));
+                assert!(measured_in(unit).is_some());
                 let statistic = quantity.statistics[0].name();
                 let text = format!("{}.{statistic} <= 1 {unit}", quantity.name);
                 let one = [quantity.clone()];

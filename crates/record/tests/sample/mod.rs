@@ -208,6 +208,7 @@ fn telemetry(samples: usize, miss: f64) -> Telemetry {
         |name: &str, unit: &str, plot: &str, label: &str, f: &dyn Fn(f64) -> f64| Channel {
             name: name.into(),
             unit: unit.into(),
+            meaning: format!("what {name} is"),
             plot: plot.into(),
             label: label.into(),
             values: time.iter().map(|t| f(*t)).collect(),
@@ -242,7 +243,8 @@ fn telemetry(samples: usize, miss: f64) -> Telemetry {
         .push(channel("energy.kinetic", "J", "Energy and power", "kinetic", &|t| 40.0 * rate(t)));
     channels
         .push(channel("energy.power", "W", "Energy and power", "power", &|t| (t - 12.0) * rate(t)));
-    Telemetry { time, channels }
+    let phase = vec!["move".to_owned(); time.len()];
+    Telemetry { time, phase, channels }
 }
 
 fn snapshot(time: f64, miss: f64) -> Snapshot {

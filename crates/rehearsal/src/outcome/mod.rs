@@ -200,6 +200,8 @@ pub struct Ledger {
 pub struct Telemetry {
     /// Sample times (s).
     pub time: Vec<f64>,
+    /// Name of the phase that each sample belongs to; empty once all are done.
+    pub phase: Vec<String>,
     /// The channels, each as long as `time`.
     pub channels: Vec<Channel>,
 }
@@ -211,11 +213,14 @@ pub struct Channel {
     pub name: String,
     /// Unit.
     pub unit: String,
-    /// The plot it belongs to: channels of one plot share a unit (or a second axis).
+    /// What it is, in words.
+    pub meaning: String,
+    /// The plot it belongs to: channels of one plot share a unit (or a second axis). Empty for a channel
+    /// that is not drawn.
     pub plot: String,
     /// The line's name in the plot.
     pub label: String,
-    /// Values, one for each sample time.
+    /// Values, one for each sample time; NaN where there is none.
     pub values: Vec<f64>,
 }
 

@@ -27,24 +27,19 @@ fn edges(kind: ShapeKind) -> Vec3<f64> {
     }
 }
 
-/// The vehicle now, with the payloads at the given poses of their centres of mass; `tips` are the
+/// The vehicle now, with its payloads; `tips` are the
 /// tool and its reference.
-pub(crate) fn snapshot(
-    case: &Case,
-    world: &CaseWorld,
-    payloads: &[(usize, Pose<f64>)],
-    tips: [Vec3<f64>; 2],
-) -> Snapshot {
+pub(crate) fn snapshot(case: &Case, world: &CaseWorld, tips: [Vec3<f64>; 2]) -> Snapshot {
     let state = world.state();
     let k = kinematics(world.robot(), &state);
     let bodies = case.vehicle.shapes.iter().map(|shape| SnapshotBox {
         name: shape.link.clone(),
         corners: corners(&k.pose(&shape.frame), edges(shape.kind)),
     });
-    let loads = payloads.iter().filter_map(|(i, X)| {
-        let payload = &case.payloads[*i];
+    let loads = world.payload_motions().into_iter().filter_map(|(i, X, _)| {
+        let payload = &case.payloads[i];
         let edges = Vec3::from_array(payload.box_m?);
-        Some(SnapshotBox { name: payload.name.clone(), corners: corners(X, edges) })
+        Some(SnapshotBox { name: payload.name.clone(), corners: corners(&X, edges) })
     });
     Snapshot {
         time: world.time(),

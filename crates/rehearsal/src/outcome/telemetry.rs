@@ -1,12 +1,15 @@
 //! Time histories: what is sampled, under which name, in which plot.
 
-use crate::case::AttitudeActuation;
-use crate::case::Case;
+use crate::case::{AttitudeActuation, Case};
 use crate::outcome::{Channel, Telemetry};
-use crate::signals::SIGNALS;
 use crate::signals::observe::Observation;
+use crate::signals::{SIGNALS, quantity::Kind};
+use crate::simulation::Simulation;
+use crate::true_plant::TruePlant;
 use wrasse_dynamics::JointKind;
-use wrasse_spatial::Vec3;
+use wrasse_flight::Command;
+use wrasse_spatial::{Pose, Quat, Vec3};
+use wrasse_vehicle::JOINTS;
 use wrasse_world::{Ledger, Source};
 
 /// Collects samples into channels; the channels are made by the first sample.
@@ -17,16 +20,64 @@ pub(crate) struct Recorder {
     next: usize,
 }
 
+/// A channel's name, unit and meaning, and where it is drawn.
+#[derive(Clone, Copy)]
+struct Head<'a> {
+    plot: &'a str,
+    label: &'a str,
+    name: &'a str,
+    unit: &'a str,
+    meaning: &'a str,
+}
+
+impl<'a> Head<'a> {
+    /// A channel that is not drawn.
+    fn new(name: &'a str, unit: &'a str, meaning: &'a str) -> Self {
+        Self { plot: "", label: "", name, unit, meaning }
+    }
+    fn drawn(self, plot: &'a str, label: &'a str) -> Self {
+        Self { plot, label, ..self }
+    }
+}
+
+/// A joint's name and what it is told or does, in units of records.
+struct JointUnits {
+    position: &'static str,
+    rate: &'static str,
+    effort: &'static str,
+    /// How many of the first two are one in SI.
+    per_si: f64,
+    plots: [&'static str; 3],
+}
+
+const TURNING: JointUnits = JointUnits {
+    position: "deg",
+    rate: "deg/s",
+    effort: "N·m",
+    per_si: 180.0 / std::f64::consts::PI,
+    plots: ["Joint positions", "Joint rates", "Joint torques"],
+};
+
+const SLIDING: JointUnits = JointUnits {
+    position: "mm",
+    rate: "mm/s",
+    effort: "N",
+    per_si: 1e3,
+    plots: ["Joint travel", "Joint speeds", "Joint forces"],
+};
+
 impl Recorder {
     pub(crate) fn finish(self) -> Telemetry {
         self.telemetry
     }
 
-    fn put(&mut self, plot: &str, label: &str, name: &str, unit: &str, value: f64) {
+    fn put(&mut self, head: Head<'_>, value: f64) {
         if self.next == self.telemetry.channels.len() {
+            let Head { plot, label, name, unit, meaning } = head;
             self.telemetry.channels.push(Channel {
                 name: name.into(),
                 unit: unit.into(),
+                meaning: meaning.into(),
                 plot: plot.into(),
                 label: label.into(),
                 values: vec![],
@@ -36,23 +87,41 @@ impl Recorder {
         self.next += 1;
     }
 
-    fn put_vector(&mut self, plot: &str, label: &str, name: &str, unit: &str, v: Vec3<f64>) {
+    fn put_vector(&mut self, head: Head<'_>, v: Vec3<f64>) {
+        let Head { plot, label, name, .. } = head;
         for (axis, x) in ["x", "y", "z"].into_iter().zip(v.to_array()) {
             let label = if label.is_empty() { axis.into() } else { format!("{label} {axis}") };
-            self.put(plot, &label, &format!("{name}.{axis}"), unit, x);
+            let (label, name) = (label.as_str(), format!("{name}.{axis}"));
+            self.put(Head { plot, label, name: &name, ..head }, x);
         }
     }
 
-    /// Take one sample.
-    pub(crate) fn sample(&mut self, time: f64, case: &Case, seen: &Observation, ledger: &Ledger) {
-        self.telemetry.time.push(time);
+    fn put_quaternion(&mut self, head: Head<'_>, quat: &Quat<f64>) {
+        for (part, x) in [("w", quat.w), ("x", quat.x), ("y", quat.y), ("z", quat.z)] {
+            self.put(Head { name: &format!("{}.{part}", head.name), ..head }, x);
+        }
+    }
+
+    /// Take one sample, of what is seen after the last period or before the first, and of the commands of
+    /// that period.
+    pub(crate) fn sample(
+        &mut self,
+        flight: &Simulation<'_, TruePlant<'_>>,
+        command: &Command<f64, JOINTS>,
+        seen: &Observation,
+    ) {
+        let case = flight.case();
+        self.telemetry.time.push(flight.time());
+        let phase = case.phases.get(command.phase);
+        self.telemetry.phase.push(phase.map_or(String::new(), |phase| phase.name.clone()));
         self.next = 0;
         self.signals(case, seen);
-        self.tool_and_base(seen);
-        self.joints(case, seen);
-        self.attitude(case, seen);
-        self.equipment(case, seen);
-        self.books(ledger);
+        self.tool_and_base(flight, seen);
+        self.joints(case, command, seen);
+        self.attitude(case, command, seen);
+        self.equipment(case, command, seen);
+        self.payloads(flight);
+        self.books(flight.plant().ledger());
     }
 
     /// The signals that the table draws.
@@ -61,74 +130,161 @@ impl Recorder {
             let Some(plot) = signal.plot.as_ref().filter(|plot| (plot.shown)(case)) else {
                 continue;
             };
-            self.put(plot.title, plot.label, signal.name, plot.unit, value * plot.per_si);
+            let head = Head::new(signal.name, plot.unit, signal.meaning);
+            self.put(head.drawn(plot.title, plot.label), value * plot.per_si);
         }
     }
 
-    fn tool_and_base(&mut self, seen: &Observation) {
-        self.put_vector("Tool position", "", "tool.position", "m", seen.X_NE.translation);
+    fn tool_and_base(&mut self, flight: &Simulation<'_, TruePlant<'_>>, seen: &Observation) {
+        let meaning = "position of the tool, inertial axes";
+        let head = Head::new("tool.position", "m", meaning).drawn("Tool position", "");
+        self.put_vector(head, seen.X_NE.translation);
+        let meaning =
+            "rotation vector of the base since the start, with whole turns, axes of the start";
+        let head = Head::new("base.rotation", "deg", meaning);
         let turn = seen.base_turn.map(f64::to_degrees);
-        self.put_vector("Base rotation since the start", "", "base.rotation", "deg", turn);
-        let shift = seen.base_shift * 1e3;
-        self.put_vector("Base translation since the start", "", "base.translation", "mm", shift);
+        self.put_vector(head.drawn("Base rotation since the start", ""), turn);
+        let meaning = "way of the base's origin since the start, inertial axes";
+        let head = Head::new("base.translation", "mm", meaning);
+        self.put_vector(head.drawn("Base translation since the start", ""), seen.base_shift * 1e3);
+        let head = Head::new(
+            "base.quaternion",
+            "–",
+            "attitude of the base, from its axes to inertial ones",
+        );
+        self.put_quaternion(head, &flight.plant().world.quat_NB());
+        let head = Head::new("base.position", "m", "position of the base's origin, inertial axes");
+        self.put_vector(head, seen.state.X_NB.translation);
+        let V = seen.state.V_NB_B;
+        let head = Head::new("base.turn_rate", "deg/s", "angular velocity of the base, its axes");
+        self.put_vector(head, V.angular.map(f64::to_degrees));
+        let head = Head::new("base.velocity", "m/s", "velocity of the base's origin, its axes");
+        self.put_vector(head, V.linear);
     }
 
-    fn joints(&mut self, case: &Case, seen: &Observation) {
-        let joints = || {
-            case.vehicle.joint_names.iter().enumerate().map(|(j, name)| {
-                (j, name.clone(), case.vehicle.robot.joint(j).kind == JointKind::Revolute)
-            })
-        };
+    fn joints(&mut self, case: &Case, command: &Command<f64, JOINTS>, seen: &Observation) {
         // Turning and sliding joints do not share a unit, so they do not share a plot.
-        for turns in [true, false] {
-            let pick = |turning: &'static str, sliding: &'static str| {
-                if turns { turning } else { sliding }
+        for (kind, units) in [(JointKind::Revolute, TURNING), (JointKind::Prismatic, SLIDING)] {
+            let of_kind = |j: &usize| case.vehicle.robot.joint(*j).kind == kind;
+            let joints = || (0..case.vehicle.joint_names.len()).filter(of_kind);
+            let (q, v) = (&seen.state.q, &seen.state.v);
+            let (told, effort) = (&command.set_points, &seen.dynamics.force.joints);
+            let JointUnits { position, rate, effort: torque, per_si, plots } = units;
+            let mut put = |name: &str, unit, meaning, plot, value: &dyn Fn(usize) -> f64| {
+                for j in joints() {
+                    let joint = &case.vehicle.joint_names[j];
+                    let name = format!("joint.{joint}.{name}");
+                    self.put(Head::new(&name, unit, meaning).drawn(plot, joint), value(j));
+                }
             };
-            let scale = if turns { 1.0_f64.to_degrees() } else { 1e3 };
-            for (j, name, _) in joints().filter(|joint| joint.2 == turns) {
-                let path = format!("joint.{name}.position");
-                let plot = pick("Joint positions", "Joint travel");
-                self.put(plot, &name, &path, pick("deg", "mm"), seen.state.q[j] * scale);
-            }
-            for (j, name, _) in joints().filter(|joint| joint.2 == turns) {
-                let path = format!("joint.{name}.rate");
-                let plot = pick("Joint rates", "Joint speeds");
-                self.put(plot, &name, &path, pick("deg/s", "mm/s"), seen.state.v[j] * scale);
-            }
-            for (j, name, _) in joints().filter(|joint| joint.2 == turns) {
-                let path = format!("joint.{name}.effort");
-                let plot = pick("Joint torques", "Joint forces");
-                self.put(plot, &name, &path, pick("N·m", "N"), seen.dynamics.force.joints[j]);
-            }
+            put("position", position, "position of the joint", plots[0], &|j| q[j] * per_si);
+            put("rate", rate, "rate of the joint", plots[1], &|j| v[j] * per_si);
+            put("effort", torque, "what drives the joint", plots[2], &|j| effort[j]);
+            let end = "at the end of the period";
+            let meanings = ["set-point of the position", "set-point of the rate"];
+            let meanings = meanings.map(|what| format!("{what} {end}"));
+            put("commanded_position", position, &meanings[0], "", &|j| told[j].position * per_si);
+            put("commanded_rate", rate, &meanings[1], "", &|j| told[j].rate * per_si);
+            let meaning = "what the drive is told over the period, within its limit";
+            put("commanded_effort", torque, meaning, "", &|j| command.effort[j]);
         }
     }
 
-    fn attitude(&mut self, case: &Case, seen: &Observation) {
+    fn attitude(&mut self, case: &Case, command: &Command<f64, JOINTS>, seen: &Observation) {
         let plot = "Torque on the base: what the arms take, what was given";
-        self.put_vector(plot, "arms", "attitude.reaction", "N·m", seen.reaction_B);
-        self.put_vector(plot, "given", "attitude.torque", "N·m", seen.torque_B);
-        let plot = "Momentum stored by the attitude control";
-        self.put_vector(plot, "", "attitude.momentum", "N·m·s", seen.stored_B);
+        let meaning =
+            "torque by which the base carries the arms, about its centre of mass, its axes";
+        let head = Head::new("attitude.reaction", "N·m", meaning).drawn(plot, "arms");
+        self.put_vector(head, seen.reaction_B);
+        let meaning = "torque that turns the base, its axes";
+        let head = Head::new("attitude.torque", "N·m", meaning).drawn(plot, "given");
+        self.put_vector(head, seen.torque_B);
+        let meaning = "momentum stored by the attitude control, base axes";
+        let head = Head::new("attitude.momentum", "N·m·s", meaning);
+        self.put_vector(head.drawn("Momentum stored by the attitude control", ""), seen.stored_B);
         if let AttitudeActuation::Ideal(Some(actuator)) = case.actuation {
-            let limit = actuator.momentum_limit;
-            self.put(plot, "limit", "attitude.momentum_limit", "N·m·s", limit);
-            self.put(plot, "-limit", "attitude.momentum_limit_below", "N·m·s", -limit);
+            let (limit, plot) =
+                (actuator.momentum_limit, "Momentum stored by the attitude control");
+            let meaning = "most that the ideal actuator stores";
+            let head = Head::new("attitude.momentum_limit", "N·m·s", meaning);
+            self.put(head.drawn(plot, "limit"), limit);
+            let head = Head::new("attitude.momentum_limit_below", "N·m·s", meaning);
+            self.put(head.drawn(plot, "-limit"), -limit);
         }
+        let meaning = "torque that the base should feel over the period, its axes";
+        let head = Head::new("attitude.commanded_torque", "N·m", meaning);
+        self.put_vector(head, command.attitude_torque_B);
     }
 
-    fn equipment(&mut self, case: &Case, seen: &Observation) {
-        let (equipment, read) = (&case.equipment, &seen.readings);
-        for (i, name) in equipment.wheel_names.iter().enumerate() {
-            let per_minute = read.wheel_speed[i] * 30.0 / std::f64::consts::PI;
-            self.put("Wheel speeds", name, &format!("wheel.{name}.speed"), "rpm", per_minute);
-        }
-        for (i, name) in equipment.cmg_names.iter().enumerate() {
-            let degrees = read.gimbal_angle[i].to_degrees();
-            self.put("Gimbal angles", name, &format!("cmg.{name}.angle"), "deg", degrees);
-        }
-        for (i, name) in equipment.cmg_names.iter().enumerate() {
-            let degrees = read.gimbal_rate[i].to_degrees();
-            self.put("Gimbal rates", name, &format!("cmg.{name}.rate"), "deg/s", degrees);
+    fn equipment(&mut self, case: &Case, command: &Command<f64, JOINTS>, seen: &Observation) {
+        let (equipment, read, told) = (&case.equipment, &seen.readings, &command.actuators);
+        let per_degree = 1.0_f64.to_degrees();
+        let mut each =
+            |names: &[String], (kind, name, unit), meaning, plot, values: &[f64], per| {
+                for (of, value) in names.iter().zip(values) {
+                    let name = format!("{kind}.{of}.{name}");
+                    self.put(Head::new(&name, unit, meaning).drawn(plot, of), value * per);
+                }
+            };
+        let (wheels, cmgs) = (&equipment.wheel_names, &equipment.cmg_names);
+        let per_minute = 30.0 / std::f64::consts::PI;
+        let meaning = "speed of the wheel in the base";
+        each(
+            wheels,
+            ("wheel", "speed", "rpm"),
+            meaning,
+            "Wheel speeds",
+            &read.wheel_speed,
+            per_minute,
+        );
+        let motors = &seen.motor_torques;
+        let meaning = "torque of the wheel's motor";
+        each(wheels, ("wheel", "torque", "N·m"), meaning, "", &motors.wheel, 1.0);
+        let meaning = "torque that the wheel is told";
+        each(wheels, ("wheel", "commanded_torque", "N·m"), meaning, "", &told.wheel_torque, 1.0);
+        let meaning = "angle of the gimbal";
+        each(
+            cmgs,
+            ("cmg", "angle", "deg"),
+            meaning,
+            "Gimbal angles",
+            &read.gimbal_angle,
+            per_degree,
+        );
+        let meaning = "rate of the gimbal";
+        each(
+            cmgs,
+            ("cmg", "rate", "deg/s"),
+            meaning,
+            "Gimbal rates",
+            &read.gimbal_rate,
+            per_degree,
+        );
+        let meaning = "torque of the gimbal's motor";
+        each(cmgs, ("cmg", "torque", "N·m"), meaning, "", &motors.gimbal, 1.0);
+        let meaning = "rate that the gimbal is told";
+        each(cmgs, ("cmg", "commanded_rate", "deg/s"), meaning, "", &told.gimbal_rate, per_degree);
+        let meaning = "time for which the thruster is told to be open in the period";
+        let thrusters = &equipment.thruster_names;
+        each(thrusters, ("thruster", "on_time", "ms"), meaning, "", &told.thruster_on, 1e3);
+    }
+
+    /// Payloads, in the grips or free: at their centres of mass.
+    fn payloads(&mut self, flight: &Simulation<'_, TruePlant<'_>>) {
+        for (i, X, V) in flight.plant().world.payload_motions() {
+            let of = format!("payload.{}", flight.case().payloads[i].name);
+            let name = |what: &str| format!("{of}.{what}");
+            let Pose { rotation, translation } = X;
+            let meaning = "position of its centre of mass, inertial axes";
+            self.put_vector(Head::new(&name("position"), "m", meaning), translation);
+            let meaning = "attitude of the payload, from its axes to inertial ones";
+            let head = name("quaternion");
+            self.put_quaternion(Head::new(&head, "–", meaning), &Quat::from_matrix(&rotation));
+            let meaning = "velocity of its centre of mass, inertial axes";
+            self.put_vector(Head::new(&name("velocity"), "m/s", meaning), V.linear);
+            let meaning = "angular velocity of the payload, inertial axes";
+            let turn = V.angular.map(f64::to_degrees);
+            self.put_vector(Head::new(&name("turn_rate"), "deg/s", meaning), turn);
         }
     }
 
@@ -136,15 +292,23 @@ impl Recorder {
         let [angular, linear, energy] = ledger.residuals();
         let plot = "Ledger: what nobody booked, relative to what is there";
         let relative = |rest: f64, scale: f64| if scale > 0.0 { rest / scale } else { 0.0 };
-        self.put(plot, "angular", "ledger.angular_rest", "–", relative(angular, ledger.scale[0]));
-        self.put(plot, "linear", "ledger.linear_rest", "–", relative(linear, ledger.scale[1]));
-        self.put(plot, "energy", "ledger.energy_rest", "–", relative(energy, ledger.scale[2]));
-        let plot = "Energy";
-        self.put(plot, "kinetic", "energy.kinetic", "J", ledger.now.energy);
+        let meaning = "what no source explains, relative to the largest that was exchanged";
+        for (k, (label, rest)) in
+            [("angular", angular), ("linear", linear), ("energy", energy)].into_iter().enumerate()
+        {
+            let name = format!("ledger.{label}_rest");
+            let head = Head::new(&name, "–", meaning).drawn(plot, label);
+            self.put(head, relative(rest, ledger.scale[k]));
+        }
+        let unit = Kind::Energy.si();
+        let head = Head::new("energy.kinetic", unit, "kinetic energy of all that moves");
+        self.put(head.drawn("Energy", "kinetic"), ledger.now.energy);
         let work = |source: Source| ledger.sources[source].work;
         let turned = [Source::AttitudeActuator, Source::Wheels, Source::Cmgs, Source::Thrusters];
         let (joints, actuator) = (work(Source::JointDrives), turned.map(work).iter().sum());
-        self.put(plot, "from the joints", "energy.from_joints", "J", joints);
-        self.put(plot, "from the attitude control", "energy.from_attitude", "J", actuator);
+        let head = Head::new("energy.from_joints", unit, "work of the joint drives so far");
+        self.put(head.drawn("Energy", "from the joints"), joints);
+        let head = Head::new("energy.from_attitude", unit, "work of the attitude control so far");
+        self.put(head.drawn("Energy", "from the attitude control"), actuator);
     }
 }

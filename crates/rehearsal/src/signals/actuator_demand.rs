@@ -87,8 +87,8 @@ pub(crate) fn gimbal_rates(
 /// Torque of each gimbal's motor (N·m): the one that it gives now, or the one that it would have needed
 /// to do as it was told, where that is more.
 pub(crate) fn gimbal_motors(world: &CaseWorld) -> [f64; CMGS] {
-    let motors = world.gimbal_motors();
-    from_fn(|i| larger(motors.now[i], motors.needed[i]))
+    let motors = world.motor_torques();
+    from_fn(|i| larger(motors.gimbal[i], motors.gimbal_needed[i]))
 }
 
 /// The one that is farther from zero; what is not a number is farthest.

@@ -16,6 +16,7 @@ use wrasse_flight::{Axes, Command, FlightComputer};
 use wrasse_hardware::ActuatorReadings;
 use wrasse_spatial::{Mat3, Pose, Quat, SpatialForce, SpatialVelocity, Vec3};
 use wrasse_vehicle::JOINTS;
+use wrasse_world::MotorTorques;
 
 /// The truth at one instant.
 #[derive(Debug, Clone)]
@@ -36,6 +37,8 @@ pub(crate) struct Observation {
     /// Rotation vector of the base since the start, with its whole turns (rad), and its translation (m).
     pub(crate) base_turn: Vec3<f64>,
     pub(crate) base_shift: Vec3<f64>,
+    /// Torques of the motors of wheels and gimbals; zero where they are not needed.
+    pub(crate) motor_torques: MotorTorques,
     /// What wheels, CMGs and thrusters say.
     pub(crate) readings: ActuatorReadings<f64>,
     /// Values of the signals, in the order of the quantities; NaN behind the last.
@@ -57,6 +60,10 @@ pub(crate) struct Track {
 }
 
 impl Track {
+    /// Before anything is driven.
+    pub(crate) fn before_the_start() -> Self {
+        Self { coasting: true, ..Self::default() }
+    }
     /// Follow the reference of a command that this computer gave, and the base with its attitude
     /// `quat_NB`.
     pub(crate) fn follow(
@@ -142,6 +149,7 @@ pub(crate) fn observe(
             AttitudeActuation::Ideal(_) => world.stored_momentum_B(),
         },
         readings,
+        motor_torques: if needs.motors { world.motor_torques() } else { MotorTorques::default() },
         tool_error: tool_error(&k, &X_NE, (command.reference.X_NE, command.axes)),
         X_NE,
         V_NE: k.velocity(&tool),

@@ -78,9 +78,10 @@ impl Kind {
     }
 }
 
-/// Whether any quantity is measured in this unit.
-pub fn is_unit(unit: &str) -> bool {
-    UNITS.iter().any(|u| u.0 == unit.replace('·', "."))
+/// What a unit of requirements and channels measures, and what it is in SI.
+pub fn measured_in(unit: &str) -> Option<(Kind, f64)> {
+    let plain = unit.replace('·', ".").replace('–', "-");
+    UNITS.iter().find(|u| u.0 == plain).map(|u| (u.1, u.2))
 }
 
 /// What is made of the values of a quantity over time.
@@ -113,6 +114,8 @@ impl Statistic {
 pub struct Quantity {
     /// Its name: `tool.position_error`.
     pub name: String,
+    /// What it is, in words.
+    pub meaning: String,
     /// What it is measured in.
     pub kind: Kind,
     /// What is made of its values.

@@ -23,6 +23,7 @@ pub fn watched_tools(vehicle: &Vehicle) -> &[String] {
 /// A signal that each of several tools has.
 pub(super) struct ToolSignal {
     pub(super) name: &'static str,
+    pub(super) meaning: &'static str,
     pub(super) kind: Kind,
     pub(super) statistics: &'static [Statistic],
     pub(super) value: fn(&ToolError) -> f64,
@@ -32,12 +33,14 @@ pub(super) struct ToolSignal {
 pub(super) const TOOL_SIGNALS: [ToolSignal; 2] = [
     ToolSignal {
         name: "position_error",
+        meaning: "distance of this tool from where it should be, while an arm guides it",
         kind: Kind::Length,
         statistics: &[Max, Final, Rms],
         value: |error| there(error.0.norm()),
     },
     ToolSignal {
         name: "attitude_error",
+        meaning: "angle of this tool from how it should be turned, while an arm guides it",
         kind: Kind::Angle,
         statistics: &[Max, Final, Rms],
         value: |error| there(error.1.norm()),

@@ -5,7 +5,7 @@
 //! along the gimbal axis. Rotor and gimbal count as round about the gimbal axis, so that turning the
 //! gimbal does not change the inertia of the base.
 
-use super::{Effector, GimbalMotors, Load, PeriodCommand, Stage};
+use super::{Effector, Load, MotorTorques, PeriodCommand, Stage};
 use crate::command::Saturation;
 use crate::failure::Failure;
 use crate::source::Source;
@@ -117,17 +117,17 @@ impl<const J: usize> Effector<J> for Cmgs {
         }
     }
     /// Torque of each gimbal's motor: `I (δ̈ + g·ẇ) + g·(w × h s)`. None where it is stuck.
-    fn gimbal_motors(
+    fn motor_torques(
         &self,
         own: &[f64],
         (w_NB_B, wdot_NB_B): (Vec3<f64>, Vec3<f64>),
-        motors: &mut GimbalMotors,
+        motors: &mut MotorTorques,
     ) {
-        motors.needed = self.needed;
+        motors.gimbal_needed = self.needed;
         for (i, cmg, angle, rate) in self.each(own).filter(|(i, ..)| !self.stuck[*i]) {
             let acceleration = self.acceleration(i, (angle, rate), w_NB_B);
             let turned = acceleration + cmg.gimbal_axis_B.dot(wdot_NB_B);
-            motors.now[i] = cmg.gimbal_inertia * turned + load(cmg, angle, w_NB_B);
+            motors.gimbal[i] = cmg.gimbal_inertia * turned + load(cmg, angle, w_NB_B);
         }
     }
     /// A gimbal stands still from now on: the impulse of its jam is what it had.

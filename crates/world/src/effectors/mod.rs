@@ -27,7 +27,7 @@ use crate::setup::Drive;
 use crate::source::{Booking, Source};
 use std::fmt::Debug;
 use wrasse_dynamics::{BodyId, Kinematics, MassProperties, PerBody, State};
-use wrasse_hardware::{ActuatorCommand, ActuatorReadings, CMGS};
+use wrasse_hardware::{ActuatorCommand, ActuatorReadings, CMGS, WHEELS};
 use wrasse_spatial::{SpatialForce, Vec3};
 
 /// Something that acts on a system.
@@ -62,12 +62,12 @@ pub trait Effector<const J: usize>: Debug + Send + Sync {
     fn command(&mut self, _told: &PeriodCommand<'_>, _own: &[f64], _cut: &mut Vec<Saturation>) {}
     /// What it says of itself.
     fn read(&self, _own: &[f64], _w_NB_B: Vec3<f64>, _readings: &mut ActuatorReadings<f64>) {}
-    /// Torques of gimbal motors (N·m) while the base accelerates by `wdot_NB_B` (rad/s²).
-    fn gimbal_motors(
+    /// Torques of its motors (N·m) while the base accelerates by `wdot_NB_B` (rad/s²).
+    fn motor_torques(
         &self,
         _own: &[f64],
         _motion: (Vec3<f64>, Vec3<f64>),
-        _motors: &mut GimbalMotors,
+        _motors: &mut MotorTorques,
     ) {
     }
     /// Let a unit fail, if it has it; the angular impulse that this gives the base (N·m·s, base axes).
@@ -92,13 +92,16 @@ pub trait Effector<const J: usize>: Debug + Send + Sync {
     }
 }
 
-/// Torques of the gimbals' motors (N·m).
+/// Torques of the motors of wheels and gimbals (N·m).
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct GimbalMotors {
-    /// Now, with what they bear of the turning base.
-    pub now: [f64; CMGS],
-    /// That each would have needed to do as it was commanded as the period began, whatever it can give.
-    pub needed: [f64; CMGS],
+pub struct MotorTorques {
+    /// Of the wheels, now.
+    pub wheel: [f64; WHEELS],
+    /// Of the gimbals now, with what they bear of the turning base.
+    pub gimbal: [f64; CMGS],
+    /// That each gimbal would have needed to do as it was commanded as the period began, whatever it can
+    /// give.
+    pub gimbal_needed: [f64; CMGS],
 }
 
 /// What an effector is told for a control period.

@@ -4,7 +4,7 @@
 //! `h = J (Ω + a·w)`: it changes only by what motor and bearing give, however the base turns. Its
 //! inertia about its axis is therefore not part of the base's.
 
-use super::{Effector, Load, PeriodCommand, Stage};
+use super::{Effector, Load, MotorTorques, PeriodCommand, Stage};
 use crate::command::Saturation;
 use crate::failure::Failure;
 use crate::source::Source;
@@ -120,6 +120,9 @@ impl<const J: usize> Effector<J> for Wheels {
     }
     fn read(&self, own: &[f64], w_NB_B: Vec3<f64>, readings: &mut ActuatorReadings<f64>) {
         self.each(own, w_NB_B).for_each(|(i, _, _, speed)| readings.wheel_speed[i] = speed);
+    }
+    fn motor_torques(&self, _: &[f64], _: (Vec3<f64>, Vec3<f64>), motors: &mut MotorTorques) {
+        (0..self.list.len()).for_each(|i| motors.wheel[i] = self.motor[i]);
     }
     /// The motor of a wheel gives nothing from now on.
     fn fail(&mut self, failure: Failure, _own: &mut [f64]) -> Option<Vec3<f64>> {

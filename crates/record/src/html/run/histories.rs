@@ -18,7 +18,8 @@ pub(super) const FEWEST_SAMPLES: usize = 100;
 
 /// How many numbers a sample of this case's plots holds: its channels, and a time for each plot.
 pub(super) fn numbers_per_sample(case: &CaseOutcome) -> usize {
-    case.telemetry.channels.len() + plot_names(&case.telemetry).len()
+    let drawn = case.telemetry.channels.iter().filter(|channel| !channel.plot.is_empty());
+    drawn.count() + plot_names(&case.telemetry).len()
 }
 
 /// What the page's script draws: for each case its events and plots, values in base64.
@@ -39,7 +40,7 @@ fn case_data(case: &CaseOutcome, most: usize) -> Value {
 fn plot_names(telemetry: &Telemetry) -> Vec<&str> {
     let mut names: Vec<&str> = Vec::new();
     for channel in &telemetry.channels {
-        if !names.contains(&channel.plot.as_str()) {
+        if !channel.plot.is_empty() && !names.contains(&channel.plot.as_str()) {
             names.push(&channel.plot);
         }
     }
@@ -132,6 +133,7 @@ mod tests {
         let channel = Channel {
             name: "peak".into(),
             unit: "N·m".into(),
+            meaning: "torque".into(),
             plot: "plot".into(),
             label: "peak".into(),
             values,

@@ -1,7 +1,7 @@
 //! Limits of requirements as lines in the plots of their quantities.
 
 use serde::Serialize;
-use wrasse_rehearsal::{CaseOutcome, Channel, EventKind, Verdict};
+use wrasse_rehearsal::{CaseOutcome, Channel, EventKind, Verdict, measured_in};
 
 use crate::wording::cases::quantity;
 
@@ -29,10 +29,11 @@ fn of(verdict: &Verdict, case: &CaseOutcome, channels: &[&Channel]) -> Option<Ve
     let (name, statistic) = metric.rsplit_once('.')?;
     let on: Vec<_> = channels.iter().filter(|channel| is_of(channel, name)).collect();
     let unit = &on.first()?.unit;
-    let value = verdict.limit * si(&verdict.unit)?.1 / si(unit)?.1;
-    if si(&verdict.unit)?.0 != si(unit)?.0 {
+    let (asked, drawn) = (measured_in(&verdict.unit)?, measured_in(unit)?);
+    if asked.0 != drawn.0 {
         return None;
     }
+    let value = verdict.limit * asked.1 / drawn.1;
     let [from, to] = span(verdict, case)?;
     let from = if statistic == "final" { to } else { from };
     let text = verdict.requirement.trim_start_matches(name).trim_start_matches('.').to_owned();
@@ -60,36 +61,4 @@ fn span(verdict: &Verdict, case: &CaseOutcome) -> Option<[f64; 2]> {
     let mut phases = case.events.iter().filter(|event| event.kind == EventKind::Phase);
     let from = phases.find(|event| event.text == begins)?.time_s;
     Some([from, phases.next().map_or(last, |next| next.time_s)])
-}
-
-/// What a unit of requirements and channels measures, as its unit in SI, and what it is in that.
-fn si(unit: &str) -> Option<(&'static str, f64)> {
-    const DEGREE: f64 = std::f64::consts::PI / 180.0;
-    Some(match unit {
-        "m" => ("m", 1.0),
-        "cm" => ("m", 1e-2),
-        "mm" => ("m", 1e-3),
-        "um" => ("m", 1e-6),
-        "rad" => ("rad", 1.0),
-        "mrad" => ("rad", 1e-3),
-        "deg" => ("rad", DEGREE),
-        "arcmin" => ("rad", DEGREE / 60.0),
-        "arcsec" => ("rad", DEGREE / 3600.0),
-        "m/s" => ("m/s", 1.0),
-        "mm/s" => ("m/s", 1e-3),
-        "rad/s" => ("rad/s", 1.0),
-        "deg/s" => ("rad/s", DEGREE),
-        "N" => ("N", 1.0),
-        "kN" => ("N", 1e3),
-        "N·m" | "N.m" | "Nm" => ("N·m", 1.0),
-        "mNm" => ("N·m", 1e-3),
-        "N·m·s" | "N.m.s" | "Nms" => ("N·m·s", 1.0),
-        "J" => ("J", 1.0),
-        "mJ" => ("J", 1e-3),
-        "kg" => ("kg", 1.0),
-        "g" => ("kg", 1e-3),
-        "–" | "-" => ("–", 1.0),
-        "%" => ("–", 1e-2),
-        _ => return None,
-    })
 }

@@ -1,14 +1,11 @@
-//! A sweep as Parquet: a row for each sample.
+//! A sweep as a table: a row for each sample.
 
-use std::collections::BTreeSet;
-
-use parquet::basic::Type as Physical;
-use wrasse_rehearsal::End;
-use wrasse_sweep::{CaseSweep, DrawnValue, Row, SweepOutcome};
-
-use super::{Cells, Field, Values, file, numbers, texts};
+use super::{Cells, Field, Kind, Table, Values, numbers};
 use crate::error::RecordError;
 use crate::wording::cases::name_of;
+use std::collections::BTreeSet;
+use wrasse_rehearsal::End;
+use wrasse_sweep::{CaseSweep, DrawnValue, Row, SweepOutcome};
 
 /// What a column holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,10 +37,28 @@ enum Holds<'a> {
 /// # Errors
 /// If the writer refuses.
 pub fn samples_parquet(outcome: &SweepOutcome) -> Result<Vec<u8>, RecordError> {
+    table(outcome).parquet()
+}
+
+/// The same as CSV, with the units in the head.
+///
+/// # Errors
+/// If the writer refuses.
+pub fn samples_csv(outcome: &SweepOutcome) -> Result<Vec<u8>, RecordError> {
+    table(outcome).csv()
+}
+
+fn table(outcome: &SweepOutcome) -> Table<'_, &CaseSweep> {
     let columns = columns(outcome);
-    let fields: Vec<Field> = columns.iter().map(|column| field(outcome, *column)).collect();
+    let fields = columns.iter().map(|column| field(outcome, *column)).collect();
     let flown = outcome.cases.iter().filter(|case| !case.rows.is_empty());
-    file("samples", &fields, metadata(outcome), flown, |case, k| cells(case, columns[k]))
+    Table {
+        name: "samples",
+        fields,
+        metadata: metadata(outcome),
+        groups: flown.collect(),
+        cells: Box::new(move |case, k| cells(case, columns[k])),
+    }
 }
 
 /// The columns of all cases, each once, in order of first appearance.
@@ -64,23 +79,40 @@ fn columns(outcome: &SweepOutcome) -> Vec<Holds<'_>> {
 }
 
 fn field(outcome: &SweepOutcome, column: Holds<'_>) -> Field {
-    let number = |name: String| Field::new(name, Physical::DOUBLE).with_nulls();
+    let number = |name: String, unit: &str, meaning: &str| {
+        Field::new(name, Kind::Number, unit, meaning).with_nulls()
+    };
+    let plain = |name, kind, meaning| Field::new(name, kind, "", meaning);
     match column {
-        Holds::Case => Field::new("case", Physical::BYTE_ARRAY),
-        Holds::Sample => Field::new("sample", Physical::INT64),
-        Holds::Passed => Field::new("passed", Physical::BOOLEAN),
-        Holds::Closes => Field::new("closes", Physical::BOOLEAN),
-        Holds::End => Field::new("end", Physical::BYTE_ARRAY),
-        Holds::Reason => Field::new("reason", Physical::BYTE_ARRAY).with_nulls(),
-        Holds::Drawn(quantity) => number(format!("drawn {quantity}")),
-        Holds::Flown(quantity) => {
-            number(format!("flown {quantity} [{}]", unit_of(outcome, quantity)))
+        Holds::Case => plain("case", Kind::Text, "the case of a comparison"),
+        Holds::Sample => plain("sample", Kind::Whole, "number of the sample"),
+        Holds::Passed => plain("passed", Kind::Flag, "whether all requirements hold"),
+        Holds::Closes => plain("closes", Kind::Flag, "whether the ledger closes"),
+        Holds::End => plain("end", Kind::Text, "how the flight ended"),
+        Holds::Reason => plain("reason", Kind::Text, "why it ended before its time").with_nulls(),
+        Holds::Drawn(quantity) => {
+            let meaning = "deviation from the files, as it was drawn";
+            number(format!("drawn {quantity}"), unit_of(outcome, quantity), meaning)
         }
-        Holds::Value(requirement) => number(format!("value {requirement}")),
+        Holds::Flown(quantity) => {
+            let unit = unit_of(outcome, quantity);
+            number(format!("flown {quantity} [{unit}]"), unit, "the value that flew")
+        }
+        Holds::Value(requirement) => {
+            let unit = unit_of_requirement(outcome, requirement);
+            number(format!("value {requirement}"), unit, "the value that the requirement is about")
+        }
         Holds::Verdict(requirement) => {
-            Field::new(format!("holds {requirement}"), Physical::BOOLEAN).with_nulls()
+            let name = format!("holds {requirement}");
+            Field::new(name, Kind::Flag, "", "whether the requirement holds").with_nulls()
         }
     }
+}
+
+/// The unit that a requirement is written in.
+fn unit_of_requirement<'o>(outcome: &'o SweepOutcome, requirement: &str) -> &'o str {
+    let mut all = outcome.cases.iter().flat_map(|case| &case.requirements);
+    all.find(|r| r.requirement == requirement).map_or("", |r| r.unit.as_str())
 }
 
 fn metadata(outcome: &SweepOutcome) -> Vec<(String, String)> {
@@ -96,15 +128,15 @@ fn metadata(outcome: &SweepOutcome) -> Vec<(String, String)> {
 fn cells(case: &CaseSweep, column: Holds<'_>) -> Cells<'static> {
     let rows = || case.rows.iter();
     match column {
-        Holds::Case => Cells::all(texts(vec![name_of(&case.labels); case.rows.len()])),
+        Holds::Case => Cells::all(Values::Text(vec![name_of(&case.labels); case.rows.len()])),
         Holds::Sample => {
             let number = |row: &Row| i64::try_from(row.sample).unwrap_or(i64::MAX);
             Cells::all(Values::Whole(rows().map(number).collect()))
         }
         Holds::Passed => Cells::all(Values::Flags(rows().map(|row| row.passed).collect())),
         Holds::Closes => Cells::all(Values::Flags(rows().map(|row| row.closes).collect())),
-        Holds::End => Cells::all(texts(rows().map(|row| ending(row).0).collect())),
-        Holds::Reason => Cells::some(rows().map(|row| ending(row).1), texts),
+        Holds::End => Cells::all(Values::Text(rows().map(|row| ending(row).0).collect())),
+        Holds::Reason => Cells::some(rows().map(|row| ending(row).1), Values::Text),
         Holds::Drawn(quantity) => {
             Cells::some(drawn(case, quantity).map(|x| Some(x?.deviation)), numbers)
         }

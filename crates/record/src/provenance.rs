@@ -1,0 +1,59 @@
+//! Whence results come: the program, its command line, and the files it read.
+
+use serde::Serialize;
+use wrasse_mission::{Mission, sha256};
+
+/// Whence results come. There is no clock in it: the same files and the same command give the same results.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+pub struct Provenance {
+    /// The program's version.
+    pub version: String,
+    /// The commit that it was built from, with `-dirty` if files were changed since; `unknown` outside of
+    /// a repository.
+    pub commit: String,
+    /// The command line, word by word, as far as it decides the results.
+    pub command_line: Vec<String>,
+    /// SHA-256 of all files in canonical form: comments, order of keys and blanks do not change it.
+    pub fingerprint: String,
+    /// The mission file.
+    pub mission: FileRecord,
+    /// The vehicle files of its cases, each once.
+    pub vehicles: Vec<FileRecord>,
+}
+
+/// A file that was read.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+pub struct FileRecord {
+    /// As it was named.
+    pub file: String,
+    /// SHA-256 of its bytes, as `sha256sum` says it.
+    pub sha256: String,
+    /// Its whole text.
+    pub text: String,
+}
+
+impl FileRecord {
+    fn of(file: &str, text: &str) -> Self {
+        Self { file: file.into(), sha256: sha256(text), text: text.into() }
+    }
+}
+
+impl Provenance {
+    /// Of a mission that a program of this commit flies.
+    pub fn of(mission: &Mission, commit: &str, command_line: Vec<String>) -> Self {
+        let mut vehicles: Vec<FileRecord> = vec![];
+        for case in &mission.cases {
+            if vehicles.iter().all(|known| known.text != case.vehicle.text) {
+                vehicles.push(FileRecord::of(&case.vehicle_name, &case.vehicle.text));
+            }
+        }
+        Self {
+            version: env!("CARGO_PKG_VERSION").into(),
+            commit: commit.into(),
+            command_line,
+            fingerprint: mission.fingerprint(),
+            mission: FileRecord::of(&mission.file, &mission.text),
+            vehicles,
+        }
+    }
+}
