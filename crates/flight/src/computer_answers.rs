@@ -5,9 +5,9 @@ use crate::interface::Axes;
 use crate::law::Task;
 use crate::navigation::Navigation;
 use crate::phase::{Held, Path};
-use crate::resolved_motion::{Assignment, task_jacobian};
+use crate::resolved_motion::{Assignment, task_jacobian_in};
 use crate::tool_pose::{Unreachable, joints_for_tool, wrist_too_far};
-use wrasse_dynamics::{Frame, Robot, State};
+use wrasse_dynamics::{Configuration, Frame, Robot, State, configure};
 use wrasse_spatial::{Pose, Quat, Scalar, SpatialVelocity};
 
 /// An arm at work.
@@ -57,10 +57,12 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         ((wanted.translation - X.translation).norm(), turned.norm())
     }
 
-    /// The law's Jacobian now: columns are the tool's twist per joint rate.
-    pub fn task_jacobian(&self) -> [SpatialVelocity<T>; J] {
+    /// The law's Jacobian now: columns are the tool's twist per joint rate. `place` is for what its posture
+    /// gives.
+    pub fn task_jacobian(&self, place: &mut Configuration<T, J>) -> [SpatialVelocity<T>; J] {
         let to = Assignment { axes: self.memory.axes, ..self.setup.assignment };
-        task_jacobian(&self.robot, &to, &self.memory.belief)
+        configure(&self.robot, &self.memory.belief.q, place);
+        task_jacobian_in(&self.robot, &to, place, &self.memory.belief)
     }
 
     /// What is left of the line's end at the nearest joint positions that the law can find, if the

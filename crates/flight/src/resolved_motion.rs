@@ -174,9 +174,18 @@ pub fn task_jacobian<T: Real, const J: usize>(
     to: &Assignment<T>,
     belief: &Belief<T, J>,
 ) -> [SpatialVelocity<T>; J] {
-    let configuration = Configuration::at(robot, &belief.q);
+    task_jacobian_in(robot, to, &Configuration::at(robot, &belief.q), belief)
+}
+
+/// The same in the belief's configuration, which is at hand.
+pub(crate) fn task_jacobian_in<T: Real, const J: usize>(
+    robot: &Robot<T, J>,
+    to: &Assignment<T>,
+    configuration: &Configuration<T, J>,
+    belief: &Belief<T, J>,
+) -> [SpatialVelocity<T>; J] {
     let response = base_response(to.law.base(), &configuration.base, &belief.h_Scm_B());
-    let law = LawJacobian::new(robot, to, &configuration, &response);
+    let law = LawJacobian::new(robot, to, configuration, &response);
     let R = match to.axes {
         Axes::Inertial => belief.X_NB.rotation,
         Axes::Base => Mat3::identity(),

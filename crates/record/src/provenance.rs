@@ -13,8 +13,6 @@ pub struct Provenance {
     pub commit: String,
     /// The command line, word by word, as far as it decides the results.
     pub command_line: Vec<String>,
-    /// SHA-256 of all files in canonical form: comments, order of keys and blanks do not change it.
-    pub fingerprint: String,
     /// The mission file.
     pub mission: FileRecord,
     /// The vehicle files of its cases, each once.
@@ -51,7 +49,6 @@ impl Provenance {
             version: env!("CARGO_PKG_VERSION").into(),
             commit: commit.into(),
             command_line,
-            fingerprint: mission.fingerprint(),
             mission: FileRecord::of(&mission.file, &mission.text),
             vehicles,
         }

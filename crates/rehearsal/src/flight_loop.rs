@@ -12,6 +12,7 @@ use crate::signals::quantity::Statistics;
 use crate::signals::watch::Watch;
 use crate::simulation::{Observer, Plant, Simulation};
 use crate::true_plant::TruePlant;
+use wrasse_dynamics::Configuration;
 use wrasse_flight::{Command, LONGEST};
 use wrasse_vehicle::JOINTS;
 use wrasse_world::{Ledger, Stepper};
@@ -66,7 +67,8 @@ impl<'a> Observer<TruePlant<'a>> for Reporter<'_> {
     ) {
         self.notices.commanded(flight, command, events);
         if flight.periods() == 0 {
-            let start = observe(flight, command, &Track::before_the_start(), Needs::ALL);
+            let (track, place) = (Track::before_the_start(), &mut Configuration::new());
+            let start = observe(flight, command, &track, Needs::ALL, place);
             self.recorder.sample(flight, command, &start);
         }
     }

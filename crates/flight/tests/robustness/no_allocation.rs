@@ -3,7 +3,7 @@
 use crate::allocation::bench;
 use crate::laws::flights::{Flight, aside, at_rest, drifting, robot, setup};
 use std::hint::black_box;
-use wrasse_dynamics::kinematics;
+use wrasse_dynamics::{Configuration, kinematics};
 use wrasse_flight::allocation::{
     AllocationSetup, Allocator, CmgLaw, CmgSharing, Damping, Unit, Waves, WheelLaw, WheelSharing,
     cmg_rates, preferred_angles, wheel_torques,
@@ -46,11 +46,12 @@ fn a_control_period_allocates_nothing() {
             Phase::Hold { what: Held::Joints, duration: 0.1 },
         ];
         let (mut flight, same) = (Flight::new(&setup, drifting(), &phases), robot());
+        let mut place = Configuration::new();
         let calls = allocations(|| {
             while !flight.computer.done() {
                 black_box(flight.step().unwrap());
                 black_box(flight.computer.believed_tool_error());
-                black_box(flight.computer.task_jacobian());
+                black_box(flight.computer.task_jacobian(&mut place));
             }
             flight.computer.robot_changed(&same);
         });

@@ -20,12 +20,13 @@ pub(crate) struct Recorder {
     next: usize,
 }
 
-/// A channel's name, unit and meaning, and where it is drawn.
+/// A channel's name, in parts, its unit and meaning, and where it is drawn. Names are joined for the first
+/// sample alone.
 #[derive(Clone, Copy)]
 struct Head<'a> {
     plot: &'a str,
     label: &'a str,
-    name: &'a str,
+    path: [&'a str; 3],
     unit: &'a str,
     meaning: &'a str,
 }
@@ -33,10 +34,19 @@ struct Head<'a> {
 impl<'a> Head<'a> {
     /// A channel that is not drawn.
     fn new(name: &'a str, unit: &'a str, meaning: &'a str) -> Self {
-        Self { plot: "", label: "", name, unit, meaning }
+        Self::of([name, "", ""], unit, meaning)
+    }
+    /// The same of a name in parts: `joint`, its name, `rate`.
+    fn of(path: [&'a str; 3], unit: &'a str, meaning: &'a str) -> Self {
+        Self { plot: "", label: "", path, unit, meaning }
     }
     fn drawn(self, plot: &'a str, label: &'a str) -> Self {
         Self { plot, label, ..self }
+    }
+    /// Its name with a component behind it, if there is one.
+    fn name(&self, component: &str) -> String {
+        let parts = self.path.iter().copied().chain([component]);
+        parts.filter(|part| !part.is_empty()).collect::<Vec<_>>().join(".")
     }
 }
 
@@ -72,14 +82,19 @@ impl Recorder {
     }
 
     fn put(&mut self, head: Head<'_>, value: f64) {
+        self.put_component(head, "", value);
+    }
+
+    fn put_component(&mut self, head: Head<'_>, component: &str, value: f64) {
         if self.next == self.telemetry.channels.len() {
-            let Head { plot, label, name, unit, meaning } = head;
+            let label = [head.label, component];
+            let label: Vec<_> = label.into_iter().filter(|word| !word.is_empty()).collect();
             self.telemetry.channels.push(Channel {
-                name: name.into(),
-                unit: unit.into(),
-                meaning: meaning.into(),
-                plot: plot.into(),
-                label: label.into(),
+                name: head.name(component),
+                unit: head.unit.into(),
+                meaning: head.meaning.into(),
+                plot: head.plot.into(),
+                label: label.join(" "),
                 values: vec![],
             });
         }
@@ -88,17 +103,14 @@ impl Recorder {
     }
 
     fn put_vector(&mut self, head: Head<'_>, v: Vec3<f64>) {
-        let Head { plot, label, name, .. } = head;
         for (axis, x) in ["x", "y", "z"].into_iter().zip(v.to_array()) {
-            let label = if label.is_empty() { axis.into() } else { format!("{label} {axis}") };
-            let (label, name) = (label.as_str(), format!("{name}.{axis}"));
-            self.put(Head { plot, label, name: &name, ..head }, x);
+            self.put_component(head, axis, x);
         }
     }
 
     fn put_quaternion(&mut self, head: Head<'_>, quat: &Quat<f64>) {
         for (part, x) in [("w", quat.w), ("x", quat.x), ("y", quat.y), ("z", quat.z)] {
-            self.put(Head { name: &format!("{}.{part}", head.name), ..head }, x);
+            self.put_component(head, part, x);
         }
     }
 
@@ -173,18 +185,17 @@ impl Recorder {
             let mut put = |name: &str, unit, meaning, plot, value: &dyn Fn(usize) -> f64| {
                 for j in joints() {
                     let joint = &case.vehicle.joint_names[j];
-                    let name = format!("joint.{joint}.{name}");
-                    self.put(Head::new(&name, unit, meaning).drawn(plot, joint), value(j));
+                    let head = Head::of(["joint", joint, name], unit, meaning);
+                    self.put(head.drawn(plot, joint), value(j));
                 }
             };
             put("position", position, "position of the joint", plots[0], &|j| q[j] * per_si);
             put("rate", rate, "rate of the joint", plots[1], &|j| v[j] * per_si);
             put("effort", torque, "what drives the joint", plots[2], &|j| effort[j]);
-            let end = "at the end of the period";
-            let meanings = ["set-point of the position", "set-point of the rate"];
-            let meanings = meanings.map(|what| format!("{what} {end}"));
-            put("commanded_position", position, &meanings[0], "", &|j| told[j].position * per_si);
-            put("commanded_rate", rate, &meanings[1], "", &|j| told[j].rate * per_si);
+            let meaning = "set-point of the position at the end of the period";
+            put("commanded_position", position, meaning, "", &|j| told[j].position * per_si);
+            let meaning = "set-point of the rate at the end of the period";
+            put("commanded_rate", rate, meaning, "", &|j| told[j].rate * per_si);
             let meaning = "what the drive is told over the period, within its limit";
             put("commanded_effort", torque, meaning, "", &|j| command.effort[j]);
         }
@@ -272,19 +283,18 @@ impl Recorder {
     /// Payloads, in the grips or free: at their centres of mass.
     fn payloads(&mut self, flight: &Simulation<'_, TruePlant<'_>>) {
         for (i, X, V) in flight.plant().world.payload_motions() {
-            let of = format!("payload.{}", flight.case().payloads[i].name);
-            let name = |what: &str| format!("{of}.{what}");
+            let name = &flight.case().payloads[i].name;
+            let head = |what, unit, meaning| Head::of(["payload", name, what], unit, meaning);
             let Pose { rotation, translation } = X;
             let meaning = "position of its centre of mass, inertial axes";
-            self.put_vector(Head::new(&name("position"), "m", meaning), translation);
+            self.put_vector(head("position", "m", meaning), translation);
             let meaning = "attitude of the payload, from its axes to inertial ones";
-            let head = name("quaternion");
-            self.put_quaternion(Head::new(&head, "–", meaning), &Quat::from_matrix(&rotation));
+            self.put_quaternion(head("quaternion", "–", meaning), &Quat::from_matrix(&rotation));
             let meaning = "velocity of its centre of mass, inertial axes";
-            self.put_vector(Head::new(&name("velocity"), "m/s", meaning), V.linear);
+            self.put_vector(head("velocity", "m/s", meaning), V.linear);
             let meaning = "angular velocity of the payload, inertial axes";
             let turn = V.angular.map(f64::to_degrees);
-            self.put_vector(Head::new(&name("turn_rate"), "deg/s", meaning), turn);
+            self.put_vector(head("turn_rate", "deg/s", meaning), turn);
         }
     }
 
@@ -293,11 +303,15 @@ impl Recorder {
         let plot = "Ledger: what nobody booked, relative to what is there";
         let relative = |rest: f64, scale: f64| if scale > 0.0 { rest / scale } else { 0.0 };
         let meaning = "what no source explains, relative to the largest that was exchanged";
-        for (k, (label, rest)) in
-            [("angular", angular), ("linear", linear), ("energy", energy)].into_iter().enumerate()
+        for (k, (label, name, rest)) in [
+            ("angular", "ledger.angular_rest", angular),
+            ("linear", "ledger.linear_rest", linear),
+            ("energy", "ledger.energy_rest", energy),
+        ]
+        .into_iter()
+        .enumerate()
         {
-            let name = format!("ledger.{label}_rest");
-            let head = Head::new(&name, "–", meaning).drawn(plot, label);
+            let head = Head::new(name, "–", meaning).drawn(plot, label);
             self.put(head, relative(rest, ledger.scale[k]));
         }
         let unit = Kind::Energy.si();

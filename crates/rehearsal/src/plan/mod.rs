@@ -15,7 +15,7 @@ use crate::signals::observe::tool_error;
 use crate::simulation::{Observer, Simulation};
 use believed_plant::{BelievedPlant, believed_flight};
 use upper_bound::upper_bound;
-use wrasse_dynamics::{Kinematics, State, kinematics};
+use wrasse_dynamics::{Configuration, Kinematics, State, kinematics};
 use wrasse_flight::{BadPhase, Command, FlightComputer, LONGEST, NoWay, Task};
 use wrasse_spatial::{Pose, Quat, Vec3};
 use wrasse_vehicle::JOINTS;
@@ -133,6 +133,8 @@ struct Planner {
     has_passed: bool,
     /// The longest that each step took (control periods).
     longest: Vec<u64>,
+    /// A place for what a posture gives.
+    place: Box<Configuration<f64, JOINTS>>,
 }
 
 impl Planner {
@@ -146,6 +148,7 @@ impl Planner {
             last,
             has_passed: false,
             longest: vec![0; case.phases.len()],
+            place: Box::new(Configuration::new()),
         }
     }
 
@@ -182,7 +185,7 @@ impl<'a> Observer<BelievedPlant<'a>> for Planner {
         self.notes.periods += 1;
         let at = command.reference.X_NE.translation;
         self.notes.way = (at - *self.notes.start.get_or_insert(at)).norm();
-        self.reason = look(flight.case(), flight.computer(), &mut self.notes);
+        self.reason = look(flight.case(), flight.computer(), &mut self.notes, &mut self.place);
     }
 }
 
@@ -205,13 +208,13 @@ fn look(
     case: &Case,
     computer: &FlightComputer<f64, JOINTS>,
     notes: &mut PhaseNotes,
+    place: &mut Configuration<f64, JOINTS>,
 ) -> Option<String> {
     let state = computer.believed_state();
     if let Some(reason) = look_at_loops(case, computer, notes, &state) {
         return Some(reason);
     }
     let k = kinematics(computer.robot(), &state);
-    let singular = smallest_singular_value(&computer.task_jacobian(), computer.task());
     let reach = reach_margin(&k, computer.tool()).unwrap_or(f64::INFINITY);
     let R = case.start.X_NB.rotation.transpose() * state.X_NB.rotation;
     notes.base_turn = Quat::from_matrix(&R).log().norm();
@@ -245,6 +248,7 @@ fn look(
     if !computer.follows_tool() {
         return None;
     }
+    let singular = smallest_singular_value(&computer.task_jacobian(place), computer.task());
     notes.singular = notes.singular.min(singular);
     let (off, turned) = match (computer.task(), computer.believed_tool_error()) {
         (Task::Pose, error) => error,

@@ -84,13 +84,6 @@ pub(crate) fn gimbal_rates(
     })
 }
 
-/// Torque of each gimbal's motor (N·m): the one that it gives now, or the one that it would have needed
-/// to do as it was told, where that is more.
-pub(crate) fn gimbal_motors(world: &CaseWorld) -> [f64; CMGS] {
-    let motors = world.motor_torques();
-    from_fn(|i| larger(motors.gimbal[i], motors.gimbal_needed[i]))
-}
-
 /// The one that is farther from zero; what is not a number is farthest.
 fn larger(a: f64, b: f64) -> f64 {
     if a.is_nan() || a.abs() >= b.abs() { a } else { b }

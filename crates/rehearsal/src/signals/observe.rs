@@ -1,16 +1,15 @@
 //! What is seen of the truth after each control period.
 
 use crate::case::{AttitudeActuation, Case};
-use crate::case_world::CaseWorld;
-use crate::signals::actuator_demand::{ActuatorDemand, gimbal_motors};
+use crate::signals::actuator_demand::ActuatorDemand;
 use crate::signals::arm_shape::{reach_margin, smallest_singular_value};
 use crate::signals::tool_signals::{TOOLS, ToolError, watched_tools};
 use crate::signals::{MOST, Needs, Seen, values};
 use crate::simulation::Simulation;
 use crate::true_plant::TruePlant;
 use wrasse_dynamics::{
-    BodyId, Dynamics, Generalized, Kinematics, Outside, State, inverse_dynamics, kinematics,
-    kinetic_energy, mount_reaction,
+    BodyId, Configuration, Dynamics, Generalized, Kinematics, Outside, State, inverse_dynamics,
+    kinematics, kinetic_energy, mount_reaction,
 };
 use wrasse_flight::{Axes, Command, FlightComputer};
 use wrasse_hardware::ActuatorReadings;
@@ -113,12 +112,13 @@ impl Track {
     }
 }
 
-/// See the truth after a period with this command.
+/// See the truth after a period with this command; `place` is for what a posture gives.
 pub(crate) fn observe(
     flight: &Simulation<'_, TruePlant<'_>>,
     command: &Command<f64, JOINTS>,
     track: &Track,
     needs: Needs,
+    place: &mut Configuration<f64, JOINTS>,
 ) -> Observation {
     let (case, computer, world) = (flight.case(), flight.computer(), &flight.plant().world);
     let state = world.state();
@@ -134,6 +134,9 @@ pub(crate) fn observe(
         if needs.mounts { mounts(case, &k, &dynamics) } else { ((nan, nan), nothing) };
     let readings =
         if needs.readings { world.actuator_readings() } else { ActuatorReadings::default() };
+    // They cost the motion of all bodies.
+    let motors = needs.motors && case.stores_momentum();
+    let motor_torques = if motors { world.motor_torques() } else { MotorTorques::default() };
     let seen = Observation {
         dynamics,
         torque_B: match case.actuation {
@@ -149,7 +152,7 @@ pub(crate) fn observe(
             AttitudeActuation::Ideal(_) => world.stored_momentum_B(),
         },
         readings,
-        motor_torques: if needs.motors { world.motor_torques() } else { MotorTorques::default() },
+        motor_torques,
         tool_error: tool_error(&k, &X_NE, (command.reference.X_NE, command.axes)),
         X_NE,
         V_NE: k.velocity(&tool),
@@ -167,10 +170,10 @@ pub(crate) fn observe(
         asked: &asked,
         estimate_error: flight.estimate_error(),
         mounts,
-        shape: if needs.shape { shape(computer, &k) } else { (nan, nan) },
+        shape: if needs.shape { shape(computer, &k, place) } else { (nan, nan) },
         energy: if needs.energy { there(kinetic_energy(&k)) } else { nan },
         slosh_angle: world.slosh_angle().map_or(nan, there),
-        motors: if needs.motors { motor_torque(case, world) } else { nan },
+        motors: if needs.motors { gimbal_torque(case, &motor_torques) } else { nan },
         tools: tool_errors(case, computer, &k),
     });
     Observation { values, ..seen }
@@ -209,9 +212,14 @@ fn tool_errors(
 }
 
 /// How much farther the tool could reach (m), and how far the arm is from a singular posture (–).
-fn shape(computer: &FlightComputer<f64, JOINTS>, k: &Kinematics<'_, f64, JOINTS>) -> (f64, f64) {
+fn shape(
+    computer: &FlightComputer<f64, JOINTS>,
+    k: &Kinematics<'_, f64, JOINTS>,
+    place: &mut Configuration<f64, JOINTS>,
+) -> (f64, f64) {
     let reach = reach_margin(k, computer.tool()).map_or(f64::NAN, there);
-    (reach, there(smallest_singular_value(&computer.task_jacobian(), computer.task())))
+    let J = computer.task_jacobian(place);
+    (reach, there(smallest_singular_value(&J, computer.task())))
 }
 
 /// Accelerations and forces that nobody asked for.
@@ -224,12 +232,13 @@ fn not_looked_at() -> Dynamics<f64, JOINTS> {
     }
 }
 
-/// Largest torque of a gimbal's motor (N·m); NaN without CMGs.
-fn motor_torque(case: &Case, world: &CaseWorld) -> f64 {
+/// Largest torque of a gimbal's motor (N·m), the one that it gives now, or the one that it would have needed
+/// to do as it was told; NaN without CMGs.
+fn gimbal_torque(case: &Case, motors: &MotorTorques) -> f64 {
     if case.equipment.actuators.cmgs.is_empty() {
         return f64::NAN;
     }
-    largest(gimbal_motors(world).map(f64::abs))
+    largest(motors.gimbal.iter().chain(&motors.gimbal_needed).map(|torque| torque.abs()))
 }
 
 /// Momentum in wheels and CMGs beside the base (N·m·s, base axes).

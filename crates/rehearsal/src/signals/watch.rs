@@ -7,6 +7,7 @@ use crate::signals::observe::{Observation, Track, observe};
 use crate::signals::quantity::Statistics;
 use crate::simulation::{Observer, Simulation};
 use crate::true_plant::TruePlant;
+use wrasse_dynamics::Configuration;
 use wrasse_flight::Command;
 use wrasse_vehicle::JOINTS;
 
@@ -19,13 +20,16 @@ pub struct Watch {
     track: Track,
     statistics: Statistics,
     last: Option<Observation>,
+    /// A place for what a posture gives.
+    place: Box<Configuration<f64, JOINTS>>,
 }
 
 impl Watch {
     /// All signals of a case, as far as what is worked out has them.
     pub fn new(case: &Case, needs: Needs) -> Self {
+        let place = Box::new(Configuration::new());
         let statistics = Statistics::new(case.quantities.clone(), case.phases.len());
-        Self { needs, only: None, track: Track::default(), statistics, last: None }
+        Self { needs, only: None, track: Track::default(), statistics, last: None, place }
     }
 
     /// The quantities of these numbers alone.
@@ -42,7 +46,7 @@ impl Watch {
     ) -> &Observation {
         let world = &flight.plant().world;
         self.track.follow(command, flight.computer(), &world.quat_NB());
-        let seen = observe(flight, command, &self.track, self.needs);
+        let seen = observe(flight, command, &self.track, self.needs, &mut self.place);
         match &self.only {
             None => self.statistics.add(command.phase, &seen.values),
             Some(only) => self.statistics.add_only(only, command.phase, &seen.values),
