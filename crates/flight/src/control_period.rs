@@ -134,7 +134,7 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
     }
 
     /// Measurement update: takes over the measurements that the laws may use.
-    pub fn measurement_update(
+    pub(crate) fn measurement_update(
         &mut self,
         robot: &Robot<T, J>,
         setup: &Setup<T, J>,
@@ -210,7 +210,7 @@ impl<T: Real, const J: usize> PeriodMemory<T, J> {
     }
 
     /// Control update, after the [measurement update](Self::measurement_update): follows the reference.
-    pub fn control_update(
+    pub(crate) fn control_update(
         &mut self,
         robot: &Robot<T, J>,
         setup: &Setup<T, J>,

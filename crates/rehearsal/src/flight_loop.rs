@@ -91,7 +91,8 @@ impl<'a> Observer<TruePlant<'a>> for Reporter<'_> {
         if is_snapshot(done, self.expected, case.snapshots) || is_last {
             let reference = command.reference.X_NE.translation;
             let tips = [seen.X_NE.translation, reference];
-            self.snapshots.push(snapshot(case, world, tips));
+            let guided = flight.computer().tool();
+            self.snapshots.push(snapshot(case, world, guided, tips));
         }
         (self.progress)((done as f64 / self.expected as f64).min(1.0));
     }
@@ -107,8 +108,8 @@ pub(crate) fn fly_for_report(
 ) -> Flown {
     let mut flight = Simulation::with_stepper(case, stepper);
     let world = &flight.plant().world;
-    let tool = world.pose(flight.computer().tool()).translation;
-    let first = snapshot(case, world, [tool; 2]);
+    let guided = flight.computer().tool();
+    let first = snapshot(case, world, guided, [world.pose(guided).translation; 2]);
     let mut reporter = Reporter {
         watch: Watch::new(case, Needs::ALL),
         notices: Notices::default(),

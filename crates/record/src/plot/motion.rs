@@ -120,7 +120,12 @@ impl View {
 
     fn sheet(&self, drawn: &[&Snapshot], instants: &[&Snapshot], times: [f64; 2]) -> Markup {
         let along = evenly(drawn, PATH_POINTS);
-        let wanted: Vec<_> = along.iter().map(|s| self.on_sheet(s.reference)).collect();
+        // A path for each tool that is guided for a while: between two of them nothing moved.
+        let paths = || along.chunk_by(|a, b| a.guided == b.guided);
+        let line = |path: &[&Snapshot], point: fn(&Snapshot) -> [f64; 3]| {
+            let points: Vec<_> = path.iter().map(|s| self.on_sheet(point(s))).collect();
+            corners(&points)
+        };
         let gone: Vec<_> = along.iter().map(|s| self.on_sheet(s.tool)).collect();
         let content = html! {
             @for (k, snapshot) in instants.iter().enumerate() {
@@ -128,8 +133,8 @@ impl View {
                 @let strength = (k + 1) as f64 / instants.len() as f64;
                 (self.instant(snapshot, 0.1 + 0.9 * strength * strength))
             }
-            polyline.wanted points=(corners(&wanted)) {}
-            polyline.gone points=(corners(&gone)) {}
+            @for path in paths() { polyline.wanted points=(line(path, |s| s.reference)) {} }
+            @for path in paths() { polyline.gone points=(line(path, |s| s.tool)) {} }
             @if let [first, .., last] = gone.as_slice() {
                 // The times stand on the outer sides of the path.
                 @let apart = if first[0] < last[0] { [-1.0, 1.0] } else { [1.0, -1.0] };
@@ -232,6 +237,7 @@ mod tests {
             arms: vec![],
             tool,
             reference: tool,
+            guided: "tool".into(),
         };
         let (near, far) = (at(0.0, [0.0; 3]), at(1.0, [2.0, 1.0, 0.5]));
         let drawn = [&near, &far];
@@ -253,6 +259,7 @@ mod tests {
             arms: vec![vec![[0.0; 3], [1.0, 0.5, 0.2]]],
             tool: [1.0, 0.5, 0.2],
             reference: [1.0, 0.5, 0.2],
+            guided: "tool".into(),
         };
         let wild = Snapshot { tool: [f64::NAN, f64::INFINITY, 1e300], ..calm.clone() };
         let svg = drawing(&[calm, wild.clone()]).unwrap().0;

@@ -276,5 +276,6 @@ fn snapshot(time: f64, miss: f64) -> Snapshot {
         arms: vec![arm],
         tool: place(tool),
         reference: place([tool[0], tool[1] - miss * s, tool[2]]),
+        guided: "tool".into(),
     }
 }

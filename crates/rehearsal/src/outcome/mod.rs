@@ -237,6 +237,8 @@ pub struct Snapshot {
     pub tool: [f64; 3],
     /// Where the tool should be.
     pub reference: [f64; 3],
+    /// Name of the tool that is guided then.
+    pub guided: String,
 }
 
 /// A box in a drawing.

@@ -3,7 +3,7 @@
 use crate::case::Case;
 use crate::case_world::CaseWorld;
 use crate::outcome::{Snapshot, SnapshotBox};
-use wrasse_dynamics::{BodyId, Kinematics, kinematics};
+use wrasse_dynamics::{BodyId, Frame, Kinematics, kinematics};
 use wrasse_spatial::{Pose, Vec3};
 use wrasse_vehicle::{JOINTS, ShapeKind};
 
@@ -29,7 +29,12 @@ fn edges(kind: ShapeKind) -> Vec3<f64> {
 
 /// The vehicle now, with its payloads; `tips` are the
 /// tool and its reference.
-pub(crate) fn snapshot(case: &Case, world: &CaseWorld, tips: [Vec3<f64>; 2]) -> Snapshot {
+pub(crate) fn snapshot(
+    case: &Case,
+    world: &CaseWorld,
+    guided: &Frame<f64>,
+    tips: [Vec3<f64>; 2],
+) -> Snapshot {
     let state = world.state();
     let k = kinematics(world.robot(), &state);
     let bodies = case.vehicle.shapes.iter().map(|shape| SnapshotBox {
@@ -41,12 +46,14 @@ pub(crate) fn snapshot(case: &Case, world: &CaseWorld, tips: [Vec3<f64>; 2]) -> 
         let edges = Vec3::from_array(payload.box_m?);
         Some(SnapshotBox { name: payload.name.clone(), corners: corners(&X, edges) })
     });
+    let named = case.vehicle.frames.iter().find(|frame| frame.frame == *guided);
     Snapshot {
         time: world.time(),
         boxes: bodies.chain(loads).collect(),
         arms: arms(case, &k),
         tool: tips[0].to_array(),
         reference: tips[1].to_array(),
+        guided: named.map_or(String::new(), |frame| frame.name.clone()),
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::case::{AttitudeActuation, Case};
 use crate::outcome::{Channel, Telemetry};
 use crate::signals::observe::Observation;
-use crate::signals::{SIGNALS, quantity::Kind};
+use crate::signals::{SIGNALS, quantity::Kind, tool_values};
 use crate::simulation::Simulation;
 use crate::true_plant::TruePlant;
 use wrasse_dynamics::JointKind;
@@ -144,6 +144,14 @@ impl Recorder {
             };
             let head = Head::new(signal.name, plot.unit, signal.meaning);
             self.put(head.drawn(plot.title, plot.label), value * plot.per_si);
+        }
+        let (mm, deg) = (1e3, 1.0_f64.to_degrees());
+        for (tool, [off, turned]) in tool_values(case, &seen.values) {
+            let head = |what, unit| Head::of(["tool", tool, what], unit, "error of this tool");
+            let plot = "Error of each tool";
+            self.put(head("position_error", "mm").drawn(plot, tool), off * mm);
+            let plot = "Orientation error of each tool";
+            self.put(head("attitude_error", "deg").drawn(plot, tool), turned * deg);
         }
     }
 

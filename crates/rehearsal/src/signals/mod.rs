@@ -213,6 +213,18 @@ pub(crate) fn values(seen: &Seen<'_>) -> [f64; MOST] {
     all
 }
 
+/// The tools that have signals of their own, with the values of these (m, rad).
+pub(crate) fn tool_values<'c>(
+    case: &'c Case,
+    values: &[f64; MOST],
+) -> impl Iterator<Item = (&'c str, [f64; TOOL_SIGNALS.len()])> {
+    let values = *values;
+    watched_tools(&case.vehicle).iter().enumerate().map(move |(i, tool)| {
+        let first = SIGNALS.len() + TOOL_SIGNALS.len() * i;
+        (tool.as_str(), std::array::from_fn(|k| values[first + k]))
+    })
+}
+
 /// What the signal of a number needs, where so many tools have signals of their own.
 fn needs(number: usize, tools: usize) -> Needs {
     if number < SIGNALS.len() {
