@@ -6,13 +6,16 @@ use wrasse_document::{Severity, render};
 use wrasse_mission::{Mission, read_mission, run};
 use wrasse_rehearsal::{End, RunOptions};
 
-const SHIPPED: [&str; 20] = [
+const SHIPPED: [&str; 23] = [
     include_str!("../../../missions/atlas-reach.toml"),
     include_str!("../../../missions/coast.toml"),
     include_str!("../../../missions/ets-vii-reach.toml"),
     include_str!("../../../missions/grasp-and-release.toml"),
     include_str!("../../../missions/shuttle-rms-berth.toml"),
     include_str!("../../../missions/two-arms.toml"),
+    include_str!("../../../missions/two-arms-at-once.toml"),
+    include_str!("../../../missions/grasp-again.toml"),
+    include_str!("../../../missions/slosh.toml"),
     include_str!("../../../missions/miss-distance/feedforward.toml"),
     include_str!("../../../missions/miss-distance/laws.toml"),
     include_str!("../../../missions/miss-distance/overshoot.toml"),
@@ -48,7 +51,7 @@ const NUMBERS: [&str; 14] = [
 ];
 
 /// Words that turn one valid mission into another, or into a mistake that is nearly one.
-const WORDS: [&str; 37] = [
+const WORDS: [&str; 47] = [
     "\"",
     "[",
     "]]",
@@ -85,6 +88,16 @@ const WORDS: [&str; 37] = [
     "[[failure]]\nunit = \"g-1\"\nkind = \"stuck\"\nat_s = 0.01\n",
     "[[failure]]\nunit = \"t-1\"\nkind = \"open\"\nat_s = 0.01\nreported_after_s = 0.01\n",
     "[[failure]]\nunit = \"w1\"\nkind = \"dead\"\nat_s = 0.01\n",
+    "until = { elapsed_s = 0.02 }\n",
+    "until = { reached = { distance_mm = 1e3, angle_deg = 90 } }\ntimeout_s = 0.03\n",
+    "until = { signal = \"tool.position_error < 1 m\" }\n",
+    "timeout_s = 0.02\n",
+    "then = \"x\"\n",
+    "on_fault = \"end\"\n",
+    "attempts = 2\n",
+    "[[phase.arm]]\ntool = \"a_tool\"\nhold = { duration_s = 0.03, keep = \"tool\" }\n",
+    "[[phase.arm]]\ntool = \"b_tool\"\nmove_tool = { by_m = [0, 0, 0.001], duration_s = 0.03 }\n",
+    "arm_law = \"terrestrial\"\n",
     "[[world.applied_wrench]]\non = \"tool\"\ntorque_nm = [1e3, 0, 0]\nfrom_s = 0\nduration_s = 0.03\n",
 ];
 
