@@ -3,14 +3,15 @@
 use crate::allocation::bench;
 use crate::laws::flights::{Flight, aside, at_rest, drifting, robot, setup};
 use std::hint::black_box;
-use wrasse_dynamics::{Configuration, kinematics};
+use wrasse_dynamics::{BodyId, Configuration, Frame, kinematics};
 use wrasse_flight::allocation::{
     AllocationSetup, Allocator, CmgLaw, CmgSharing, Damping, Unit, Waves, WheelLaw, WheelSharing,
     cmg_rates, preferred_angles, wheel_torques,
 };
 use wrasse_flight::{
-    Actuation, ArmLaw, Axes, BaseReading, EstimatorSetup, FlightComputer, Grip, Held, JointReading,
-    JointTarget, JointTiming, Measurement, NavigationSetup, NoWay, Phase, PositionHold, Sensed,
+    Actuation, ArmLaw, ArmTask, Assignment, Axes, BaseReading, Condition, EstimatorSetup,
+    FlightComputer, Grip, Held, JointReading, JointTarget, JointTiming, Measurement,
+    NavigationSetup, Next, NoWay, Phase, PositionHold, Sensed, SensedSignal, Step, Task,
 };
 use wrasse_hardware::{
     ActuatorReadings, CMGS, ControlMomentGyro, RateGyro, ReactionWheel, StarTracker,
@@ -57,6 +58,45 @@ fn a_control_period_allocates_nothing() {
         });
         assert_eq!(calls, 0, "{law:?}");
     }
+}
+
+/// Two tools at once, and steps that end by conditions, timeouts and faults.
+#[test]
+fn steps_of_several_arms_allocate_nothing() {
+    let setup = setup(ArmLaw::FreeFloating, Measurement::Base);
+    let elbow = Assignment {
+        tool: Frame { body: BodyId::Link(3), X_BF: Pose::identity() },
+        task: Task::Position,
+        ..setup.assignment
+    };
+    let (line, still) = (aside(Axes::Inertial, 0.5), Held::Tool);
+    let keep = Phase::Hold { what: still, duration: 0.5 };
+    let both = [
+        Some(ArmTask { motion: line, assignment: None }),
+        Some(ArmTask { motion: keep, assignment: Some(elbow) }),
+        None,
+    ];
+    let beyond = Condition::Beyond { signal: SensedSignal::ToolForce, above: true, bound: 1.0 };
+    let reached = Condition::Reached { distance: 1e-9, angle: 1e-9 };
+    let mut steps = [Step::from(line); 3];
+    steps[0].tasks = both;
+    for (step, until, next) in [(1, beyond, 1), (2, reached, 0)] {
+        steps[step].until = until;
+        steps[step].timeout = Some(0.2);
+        steps[step].attempts = Some(2);
+        steps[step].on_exhausted = Some(Next::InOrder);
+        steps[step].on_fault = Some(Next::Step(next));
+    }
+    let mut flight = Flight::with(FlightComputer::new(setup, &robot(), &steps), drifting());
+    let mut begun = 0;
+    let calls = allocations(|| {
+        while !flight.computer.done() && begun < 20 {
+            begun += usize::from(black_box(flight.step().unwrap()).begins);
+        }
+    });
+    assert_eq!(calls, 0);
+    // Both; twice at the force, which nobody feels; there and back as often as attempts allow.
+    assert!((5..20).contains(&begun), "{begun} steps");
 }
 
 /// Damped least squares tries in vain, and still nothing is allocated.
