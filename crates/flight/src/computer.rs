@@ -63,7 +63,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
         let period = self.setup.tuning.period;
         let state = self.navigation.estimate(sensed, &self.memory.acceleration, period);
         self.memory.measurement_update(&self.robot, &self.setup, &state);
-        let Decision { ended, begins, grip } = self.decide(sensed, &state)?;
+        let Decision { ended, begins, grip, exhausted } = self.decide(sensed, &state)?;
         let (robot, setup) = (&self.robot, &self.setup);
         let F_E = sensed.tool_wrench_E.unwrap_or_default();
         let (reference, share) = self.executive.next(robot, setup, &self.memory, &F_E);
@@ -91,6 +91,7 @@ impl<T: Scalar, const J: usize> FlightComputer<T, J> {
             phase: self.executive.number(),
             begins,
             ended,
+            exhausted,
             reference: self.memory.reference,
             axes: self.memory.axes,
         })

@@ -35,6 +35,8 @@ pub(crate) struct Decision<T> {
     pub(crate) begins: bool,
     /// What the grip should do.
     pub(crate) grip: Option<Grip>,
+    /// A step that would have begun, had its attempts not been used up.
+    pub(crate) exhausted: Option<usize>,
 }
 
 /// Steps, and what the arms do in the current one.
@@ -191,7 +193,7 @@ impl<T: Scalar, const J: usize> Executive<T, J> {
         known: &Known<'_, T, J>,
         answer: Option<GripAnswer>,
     ) -> Result<Decision<T>, BadPhase<T>> {
-        let nothing = Decision { ended: None, begins: false, grip: None };
+        let nothing = Decision { ended: None, begins: false, grip: None, exhausted: None };
         let Some(current) = self.current else {
             return self.enter((self.count > 0).then_some(0), (robot, setup), memory, nothing);
         };
@@ -249,7 +251,7 @@ impl<T: Scalar, const J: usize> Executive<T, J> {
         memory: &mut PeriodMemory<T, J>,
         mut decision: Decision<T>,
     ) -> Result<Decision<T>, BadPhase<T>> {
-        let Some(number) = self.not_exhausted(to)? else {
+        let Some(number) = self.not_exhausted(to, &mut decision)? else {
             self.current = Some(self.count);
             self.arms.iter_mut().for_each(|arm| arm.guidance.stand());
             self.arms.iter_mut().skip(1).for_each(|arm| arm.works = false);
@@ -271,7 +273,11 @@ impl<T: Scalar, const J: usize> Executive<T, J> {
     }
 
     /// The step to begin: this one, or what comes instead of it where it has begun as often as it may.
-    fn not_exhausted(&mut self, mut to: Option<usize>) -> Result<Option<usize>, BadPhase<T>> {
+    fn not_exhausted(
+        &mut self,
+        mut to: Option<usize>,
+        decision: &mut Decision<T>,
+    ) -> Result<Option<usize>, BadPhase<T>> {
         // Each may send on to the next, none twice.
         for _ in 0..=STEPS {
             let Some(number) = to else { return Ok(None) };
@@ -280,6 +286,7 @@ impl<T: Scalar, const J: usize> Executive<T, J> {
                 self.begun[number] = self.begun[number].saturating_add(1);
                 return Ok(Some(number));
             };
+            decision.exhausted = Some(number);
             let exhausted = BadPhase { phase: number, reason: NoWay::Exhausted(most) };
             to = step.on_exhausted.ok_or(exhausted)?.after(number, self.count);
         }

@@ -100,6 +100,8 @@ pub struct Command<T, const J: usize> {
     pub begins: bool,
     /// The step that ended before it, and why.
     pub ended: Option<(usize, StepEnd<T>)>,
+    /// A step that would have begun with it, had its attempts not been used up.
+    pub exhausted: Option<usize>,
     /// Where the tool should be at the end of the period.
     pub reference: ToolMotion<T>,
     /// The axes that the reference is in.

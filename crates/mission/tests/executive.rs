@@ -139,6 +139,7 @@ fn a_refused_grasp_is_tried_again_as_often_as_attempts_allow() {
     let grips = [("grasp", 0.0), ("wait", 0.01), ("grasp", 1.01), ("wait", 1.02), ("grasp", 2.02)];
     goes(&case, &[&grips[..], &[("wait", 2.03), ("give up", 3.03)]].concat());
     assert_eq!(case.events.iter().filter(|e| e.text.contains("refused: ")).count(), 3);
+    assert!(tells(&case, EventKind::Fault, "grasp does not begin again: 3 attempts are used up"));
     // It comes nearer by 9 mm a second: the third try has it.
     let case = fly(&[START, &module(-0.009), &tries]);
     goes(&case, &grips);

@@ -153,6 +153,12 @@ impl<'a, P: Plant> Simulation<'a, P> {
         let command = self.next_command()?;
         self.phase = Some(command.phase);
         events.extend(command.ended.and_then(|(step, end)| step_ended(self, step, &end)));
+        if let Some(step) = command.exhausted.and_then(|number| self.case.phases.get(number)) {
+            let most = step.step.attempts.unwrap_or_default();
+            let text =
+                format!("step {} does not begin again: {most} attempts are used up", step.name);
+            events.push(Event { time_s: self.time(), kind: EventKind::Fault, text });
+        }
         if let Some(phase) = self.case.phases.get(command.phase).filter(|_| command.begins) {
             let text = format!("phase {}", phase.name);
             events.push(Event { time_s: self.time(), kind: EventKind::Phase, text });

@@ -34,15 +34,21 @@ fn of(verdict: &Verdict, case: &CaseOutcome, channels: &[&Channel]) -> Option<Ve
         return None;
     }
     let value = verdict.limit * asked.1 / drawn.1;
-    let [from, to] = span(verdict, case)?;
-    let from = if statistic == "final" { to } else { from };
-    let text = verdict.requirement.trim_start_matches(name).trim_start_matches('.').to_owned();
-    let above = Limit { text, value, unit: unit.clone(), from, to };
+    let text = verdict.requirement.trim_start_matches(name).trim_start_matches('.');
     // The largest value counts without its sign.
     let is_signed = on.iter().any(|channel| channel.values.iter().any(|x| *x < 0.0));
-    let below = Limit { value: -value, text: String::new(), ..above.clone() };
     let both = is_signed && verdict.comparison.starts_with('<');
-    Some(if both { vec![above, below] } else { vec![above] })
+    let mut limits = vec![];
+    for [from, to] in spans(verdict, case) {
+        let from = if statistic == "final" { to } else { from };
+        // Said once, however often a phase comes.
+        let text = if limits.is_empty() { text.to_owned() } else { String::new() };
+        limits.push(Limit { text, value, unit: unit.clone(), from, to });
+        if both {
+            limits.push(Limit { value: -value, text: String::new(), unit: unit.clone(), from, to });
+        }
+    }
+    Some(limits)
 }
 
 /// Whether a channel is the quantity, or a component of it.
@@ -51,14 +57,17 @@ fn is_of(channel: &Channel, quantity: &str) -> bool {
     rest.is_some_and(|rest| matches!(rest, "" | ".x" | ".y" | ".z"))
 }
 
-/// Start and end of what is judged: the run, or the phase that the requirement names.
-fn span(verdict: &Verdict, case: &CaseOutcome) -> Option<[f64; 2]> {
-    let (first, last) = (*case.telemetry.time.first()?, *case.telemetry.time.last()?);
+/// Starts and ends of what is judged: the run, or each time that the phase comes that the requirement names.
+fn spans(verdict: &Verdict, case: &CaseOutcome) -> Vec<[f64; 2]> {
+    let time = &case.telemetry.time;
+    let (Some(&first), Some(&last)) = (time.first(), time.last()) else { return vec![] };
     let Some((_, phase)) = verdict.requirement.split_once(" during ") else {
-        return Some([first, last]);
+        return vec![[first, last]];
     };
     let begins = format!("phase {}", phase.trim());
-    let mut phases = case.events.iter().filter(|event| event.kind == EventKind::Phase);
-    let from = phases.find(|event| event.text == begins)?.time_s;
-    Some([from, phases.next().map_or(last, |next| next.time_s)])
+    let phases: Vec<_> =
+        case.events.iter().filter(|event| event.kind == EventKind::Phase).collect();
+    let end = |k: usize| phases.get(k + 1).map_or(last, |next| next.time_s);
+    let named = phases.iter().enumerate().filter(|(_, event)| event.text == begins);
+    named.map(|(k, event)| [event.time_s, end(k)]).collect()
 }
