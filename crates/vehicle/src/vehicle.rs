@@ -68,13 +68,6 @@ pub struct GraspBounds {
     pub angle: f64,
 }
 
-impl Default for GraspBounds {
-    /// 5 mm and 0.5 deg.
-    fn default() -> Self {
-        Self { distance: 0.005, angle: 0.5_f64.to_radians() }
-    }
-}
-
 /// A named joint posture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Posture {

@@ -46,6 +46,14 @@ impl Default for GraspBoundsFile {
     }
 }
 
+impl Default for GraspBounds {
+    /// Those of a file that says nothing: 5 mm and 0.5 deg.
+    fn default() -> Self {
+        let GraspBoundsFile { distance_m, angle_deg } = GraspBoundsFile::default();
+        Self { distance: distance_m, angle: angle_deg.to_radians() }
+    }
+}
+
 /// A tool is a massless link, fixed to its body.
 pub(crate) fn tool(
     reading: &mut Reading<'_>,
