@@ -242,6 +242,16 @@ fn the_planning_says_what_it_could_not_foresee() {
     assert!(plain.plan.iter().all(|line| line.phase != "duration"));
 }
 
+/// Three times a for 1 s; and before, between and behind these beginnings the longest way that uses up no
+/// attempts, b for 1 s, four times; a period for the last look. It is flown in 4 s: a bound, not a forecast.
+#[test]
+fn attempts_count_in_the_bound_as_often_as_they_are() {
+    let again = hold("a", "attempts = 3\nthen = \"a\"\non_exhausted = \"b\"");
+    let case = fly(&[START, &again, &hold("b", "")]);
+    goes(&case, &[("a", 0.0), ("a", 1.0), ("a", 2.0), ("b", 3.0)]);
+    assert!((bound(&case) - 7.01).abs() < 1e-9, "{}", bound(&case));
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 40, failure_persistence: None, ..ProptestConfig::default() })]
     /// Whatever leads where, no flight takes longer than its bound; a mission that could go round for ever
