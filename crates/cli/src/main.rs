@@ -5,6 +5,7 @@
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
 mod check;
+mod convert;
 mod eval;
 mod eval_answer;
 mod eval_question;
@@ -39,6 +40,7 @@ enum Command {
     Sweep(sweep::Sweep),
     Size(size::Size),
     Check(check::Check),
+    Convert(convert::Convert),
     Vehicles(vehicles::Vehicles),
     Hardware(hardware::Hardware),
     Eval(eval::Eval),
@@ -75,6 +77,7 @@ fn go(command: &Command) -> ExitCode {
         Command::Sweep(sweep) => sweep.go(),
         Command::Size(size) => size.go(),
         Command::Check(check) => Ok(check.go()),
+        Command::Convert(convert) => convert.go(),
         Command::Vehicles(vehicles) => vehicles.go(),
         Command::Hardware(hardware) => hardware.go(),
         Command::Eval(eval) => eval.go(),

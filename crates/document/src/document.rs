@@ -127,6 +127,10 @@ impl Document {
     pub fn span(&self, path: &[Step<'_>]) -> Option<Range<usize>> {
         self.find(path).map(|place| place.item.span.clone())
     }
+    /// Byte range of the value at a path, if all of the way is there.
+    pub fn exact_span(&self, path: &[Step<'_>]) -> Option<Range<usize>> {
+        self.exact(path).map(|item| item.span.clone())
+    }
     /// Byte range of the key at a path; of the value where it is in a list.
     pub fn key_span(&self, path: &[Step<'_>]) -> Option<Range<usize>> {
         self.find(path).map(|place| place.key_span.unwrap_or(place.item.span.clone()))

@@ -25,6 +25,7 @@
 
 mod canonical;
 mod complaint;
+mod decode;
 mod deserialize;
 mod document;
 mod edit;

@@ -1,5 +1,6 @@
 //! The text of a user's file, where it is a file and not too large.
 
+use crate::decode::decoded;
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
@@ -70,6 +71,5 @@ pub fn read_text(path: &Path, most: u64) -> Result<String, Unreadable> {
     if bytes.len() as u64 > most {
         return Err(Unreadable::Large { most });
     }
-    String::from_utf8(bytes)
-        .map_err(|error| Unreadable::NotText { valid_up_to: error.utf8_error().valid_up_to() })
+    decoded(bytes).map_err(|valid_up_to| Unreadable::NotText { valid_up_to })
 }

@@ -33,3 +33,10 @@ pub struct JointLimits<T> {
     /// Largest torque or force of the drive (N·m or N).
     pub effort: Option<T>,
 }
+
+impl<T: wrasse_spatial::Real> JointLimits<T> {
+    /// Zero, or the end of the travel that is nearest to it (rad or m).
+    pub fn nearest_to_zero(&self) -> T {
+        self.travel.map_or(T::zero(), |(lower, upper)| T::zero().max(lower).min(upper))
+    }
+}

@@ -1,15 +1,17 @@
 //! From named links and joints to a checked robot: links that are fixed to each other become one
 //! body, seen from the frame of the link that the moving joint carries.
 
-use crate::assembly::{AssemblyJoint, Link};
+use crate::assembly::{Assembly, AssemblyJoint, Link, Matter};
 use crate::check::{
-    Edge, Tree, check_joint, check_matter, doubt_joint, doubt_mass, doubt_matter, tree,
+    Edge, Regularity, Tree, check_body, check_joint, check_numbers, check_single_links,
+    doubt_joint, doubt_mass, doubt_matter, regularity, tree,
 };
+use crate::figures::figures;
 use crate::findings::Findings;
-use crate::vehicle::{GraspBounds, JOINTS, NamedFrame, VehicleRobot};
-use std::sync::Arc;
-use wrasse_document::{Complaint, Source};
-use wrasse_dynamics::{BodyId, Frame, Joint, MassProperties};
+use crate::followers::{followers, settle_followers};
+use crate::vehicle::{Follower, GraspBounds, JOINTS, LinkMatter, NamedFrame, VehicleRobot};
+use wrasse_document::Complaint;
+use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, MassProperties};
 use wrasse_hardware::JointLimits;
 use wrasse_spatial::Pose;
 
@@ -21,8 +23,12 @@ pub(crate) struct AssembledRobot {
     pub(crate) joint_names: Vec<String>,
     /// Their limits.
     pub(crate) limits: Vec<JointLimits<f64>>,
+    /// Those of them that follow another one.
+    pub(crate) followers: Vec<Follower>,
     /// Every link as a frame of the body that it belongs to, in the order of the file.
     pub(crate) frames: Vec<NamedFrame>,
+    /// The matter of each link that has any, in its own frame.
+    pub(crate) matter: Vec<LinkMatter>,
     /// Values that are possible but implausible, or impossible and accepted.
     pub(crate) warnings: Vec<Complaint>,
 }
@@ -31,15 +37,11 @@ pub(crate) struct AssembledRobot {
 ///
 /// # Errors
 /// All complaints at once, warnings among them, if the links are no tree or no matter can be so.
-pub(crate) fn assemble(
-    source: &Arc<Source>,
-    links: &[Link],
-    joints: &[AssemblyJoint],
-) -> Result<AssembledRobot, Vec<Complaint>> {
-    let mut found = Findings::new(source);
-    for link in links {
-        check_matter(link, &mut found);
-    }
+pub(crate) fn assemble(assembly: &Assembly) -> Result<AssembledRobot, Vec<Complaint>> {
+    let mut found = Findings::within(&assembly.files);
+    let links = &assembly.links;
+    let numbers = links.iter().fold(true, |fine, link| check_numbers(link, &mut found) && fine);
+    let joints = &settle_followers(assembly.joints.clone(), &mut found);
     for joint in joints {
         check_joint(joint, &mut found);
         doubt_joint(joint, &mut found);
@@ -48,10 +50,12 @@ pub(crate) fn assemble(
     let moving = joints.iter().filter(|j| j.kind.is_some()).count();
     if let Some(first_too_many) = joints.iter().filter(|j| j.kind.is_some()).nth(JOINTS) {
         let message = format!("{moving} moving joints: a vehicle has at most {JOINTS}");
-        let help = "fix the joints that do not move in this study";
+        let help = "fix the joints that do not move in this study: `fix = [\"finger*\"]` in an \
+                    [[include]] of this file";
         found.error(&first_too_many.at, message, "one too many", help);
     }
-    let Some(tree) = tree.filter(|_| moving <= JOINTS) else {
+    let Some(tree) = tree.filter(|_| moving <= JOINTS && numbers) else {
+        check_single_links(links, joints, &mut found);
         return Err(found.into_complaints());
     };
     let parts = Parts::of(&tree, links, joints);
@@ -100,7 +104,7 @@ impl Parts {
         parts
     }
 
-    /// Complains of bodies without mass, and warns of what is implausible.
+    /// Complains of bodies that cannot be, and warns of what is implausible.
     fn check_masses(
         &self,
         tree: &Tree,
@@ -108,33 +112,25 @@ impl Parts {
         joints: &[AssemblyJoint],
         found: &mut Findings,
     ) {
-        let whole: f64 = self.matter.iter().map(|m| m.M_F_F.mass).sum();
         for (link, frame) in links.iter().zip(&self.frames) {
             doubt_matter(link, frame.body, found);
         }
-        let has_matter = |body: BodyId| {
-            let mut of_body =
-                links.iter().zip(&self.frames).filter(|(_, frame)| frame.body == body);
-            of_body.any(|(link, _)| link.matter.is_some())
-        };
-        let root = &links[tree.root];
-        if !has_matter(BodyId::Base) {
-            let message =
-                format!("the base has no mass: neither '{}' nor anything fixed to it", root.name);
+        let mut of_body: Vec<Vec<(&Link, &Matter)>> = vec![vec![]; self.matter.len()];
+        for (link, frame) in links.iter().zip(&self.frames) {
+            let matter = link.matter.as_ref();
+            of_body[place(frame.body)].extend(matter.map(|matter| (link, matter)));
+        }
+        for (parts, matter) in of_body.iter().zip(&self.matter) {
+            check_body(parts, &matter.M_F_F, found);
+        }
+        let whole: f64 = self.matter.iter().map(|m| m.M_F_F.mass).sum();
+        if whole <= 0.0 {
+            let root = &links[tree.root];
+            let message = "nothing in this file has mass".to_owned();
             found.error(&root.at, message, "the base", "give it mass, centre of mass and inertia");
         }
         for (j, (edge, ..)) in self.moving.iter().enumerate() {
-            let joint = &joints[edge.joint];
-            if !has_matter(BodyId::Link(j)) {
-                let message = format!(
-                    "joint '{}' moves a body without mass: neither '{}' nor anything fixed to it \
-                     has any",
-                    joint.name, joint.child
-                );
-                let help = "give the link mass properties, or fix the joint";
-                found.error(&joint.child_at, message, "no mass", help);
-            }
-            doubt_mass(joint, self.matter[j + 1].M_F_F.mass, whole, found);
+            doubt_mass(&joints[edge.joint], self.matter[j + 1].M_F_F.mass, whole, found);
         }
     }
 
@@ -160,19 +156,95 @@ impl Parts {
                 return Err(found.into_complaints());
             }
         };
+        let moving: Vec<_> = self.moving.iter().map(|(edge, ..)| &joints[edge.joint]).collect();
+        check_regular(&robot, &moving, &links[0], &mut found);
+        if !found.without_error() {
+            return Err(found.into_complaints());
+        }
         let named = |(link, frame): (&Link, &Frame<f64>)| NamedFrame {
             name: link.name.clone(),
             frame: *frame,
             grasp_bounds: GraspBounds::default(),
         };
-        let of_moving = |(edge, ..): &(Edge, BodyId, Pose<f64>)| &joints[edge.joint];
         Ok(AssembledRobot {
             robot,
-            joint_names: self.moving.iter().map(|m| of_moving(m).name.clone()).collect(),
-            limits: self.moving.iter().map(|m| of_moving(m).limits).collect(),
+            joint_names: moving.iter().map(|joint| joint.name.clone()).collect(),
+            limits: moving.iter().map(|joint| joint.limits).collect(),
+            followers: followers(&moving),
             frames: links.iter().zip(&self.frames).map(named).collect(),
+            matter: links.iter().filter_map(LinkMatter::of).collect(),
             warnings: found.into_complaints(),
         })
+    }
+}
+
+/// Complains of a robot whose equations of motion have no solution in some posture within the travels.
+fn check_regular(
+    robot: &VehicleRobot,
+    moving: &[&AssemblyJoint],
+    base: &Link,
+    found: &mut Findings,
+) {
+    let travels: Vec<_> = moving.iter().map(|joint| joint.limits.travel).collect();
+    match regularity(robot, &travels) {
+        Regularity::Proved => {}
+        Regularity::Sampled(postures, pivot) => {
+            let message = format!(
+                "the mass matrix is regular in {postures} postures that were looked at, by {} of its \
+                 diagonal at the least: it is not proved for all",
+                figures(pivot)
+            );
+            let help = "a piece between two joints has no mass of its own; give it some to be sure";
+            found.warning(&base.at, message, "this vehicle", help);
+        }
+        Regularity::Singular { q, rows } => {
+            let at_posture = posture(&q, moving);
+            let help = "give the links mass properties, fix the joint, or keep its travel clear of \
+                        the posture";
+            let (of_base, of_joints): (Vec<usize>, Vec<usize>) =
+                rows.into_iter().partition(|row| *row < 6);
+            for j in of_joints.into_iter().map(|row| row - 6) {
+                let Some(joint) = moving.get(j) else { continue };
+                let what = if robot.inertia(BodyId::Link(j)).mass > 0.0 {
+                    "what has no inertia about its axis".to_owned()
+                } else {
+                    format!("no mass: neither '{}' nor anything fixed to it has any", joint.child)
+                };
+                let message = format!(
+                    "joint '{}' moves {what}, and the mass matrix is singular{at_posture}",
+                    joint.name
+                );
+                found.error(&joint.child_at, message, "no inertia", help);
+            }
+            if !of_base.is_empty() {
+                let message = format!(
+                    "the base can move without moving any mass: the mass matrix is singular\
+                     {at_posture}"
+                );
+                found.error(&base.at, message, "the base", help);
+            }
+        }
+    }
+}
+
+/// Joints named in a complaint about a posture.
+const SHOWN: usize = 4;
+
+/// The posture in words, by the joints that are not at zero.
+fn posture(q: &[f64], moving: &[&AssemblyJoint]) -> String {
+    let turned: Vec<_> = q.iter().zip(moving).filter(|(q, _)| q.abs() > 1e-12).collect();
+    let told: Vec<_> = turned
+        .iter()
+        .take(SHOWN)
+        .map(|(q, joint)| match joint.kind {
+            Some(JointKind::Prismatic) => format!("'{}' = {} m", joint.name, figures(**q)),
+            _ => format!("'{}' = {} deg", joint.name, figures(q.to_degrees())),
+        })
+        .collect();
+    match (told.is_empty(), turned.len().saturating_sub(SHOWN)) {
+        (true, _) => String::new(),
+        (false, 0) => format!(" at {}", told.join(", ")),
+        (false, more) => format!(" at {} and {more} joints more", told.join(", ")),
     }
 }
 
@@ -187,8 +259,9 @@ fn place(body: BodyId) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::assembly::Matter;
-    use wrasse_document::Severity;
+    use crate::assembly::{Acceptance, Rounding};
+    use crate::findings::SourceFiles;
+    use wrasse_document::{Severity, Source};
     use wrasse_spatial::{Sym3, vec3};
 
     fn bus(mass: f64, zz: f64, accept_nonphysical: Option<&str>) -> Link {
@@ -198,13 +271,16 @@ mod tests {
             p_cm: vec3(0.0, 0.0, 0.0),
             inertia: Sym3::diagonal(1.0, 1.0, zz),
             inertia_at: 1..2,
-            accept_nonphysical: accept_nonphysical.map(str::to_owned),
+            rounding: Rounding::default(),
+            accept_nonphysical: accept_nonphysical
+                .map(|reason| Acceptance { reason: reason.to_owned(), of_this: true }),
         };
         Link { name: "bus".into(), at: 0..1, matter: Some(matter) }
     }
 
     fn assembled(bus: Link) -> Result<AssembledRobot, Vec<Complaint>> {
-        assemble(&Source::new("bus.toml", "bus"), &[bus], &[])
+        let files = SourceFiles::of(&Source::new("bus.toml", "bus"));
+        assemble(&Assembly { files, links: vec![bus], ..Assembly::default() })
     }
 
     #[test]

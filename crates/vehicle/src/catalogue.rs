@@ -3,7 +3,8 @@
 use crate::read_vehicle::read_vehicle;
 use crate::vehicle::Vehicle;
 use std::path::{Path, PathBuf};
-use wrasse_document::{Complaint, MOST_BYTES, closest, read_text};
+use std::sync::Arc;
+use wrasse_document::{Complaint, MOST_BYTES, Source, closest, read_text};
 
 /// A vehicle of the catalogue. Its file is part of the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,8 +76,25 @@ pub enum NoVehicle {
 /// # Errors
 /// If there is no such vehicle, or its file has errors.
 pub fn find_vehicle(name_or_path: &str, relative_to: Option<&Path>) -> Result<Vehicle, NoVehicle> {
+    let source = source_of(name_or_path, relative_to)?;
+    read_vehicle(source.path.clone(), source.text.clone()).map_err(NoVehicle::Faulty)
+}
+
+/// The file of a catalogue name or of a path, or what was found in its place and what to write.
+pub(crate) fn vehicle_source(
+    name_or_path: &str,
+    relative_to: Option<&Path>,
+) -> Result<Arc<Source>, (String, String)> {
+    source_of(name_or_path, relative_to).map_err(|why| match why {
+        NoVehicle::NotFound { message, help, .. } => (message, help),
+        // No file has been read yet.
+        NoVehicle::Faulty(_) => (format!("'{name_or_path}' has errors"), String::new()),
+    })
+}
+
+fn source_of(name_or_path: &str, relative_to: Option<&Path>) -> Result<Arc<Source>, NoVehicle> {
     if let Some(entry) = catalogue().iter().find(|entry| entry.name == name_or_path) {
-        return entry.read().map_err(NoVehicle::Faulty);
+        return Ok(Source::new(Path::new("vehicles").join(entry.file_name), entry.text));
     }
     let names = || catalogue().iter().map(|entry| entry.name);
     let is_file =
@@ -104,5 +122,5 @@ pub fn find_vehicle(name_or_path: &str, relative_to: Option<&Path>) -> Result<Ve
         },
         meant: None,
     })?;
-    read_vehicle(path, text).map_err(NoVehicle::Faulty)
+    Ok(Source::new(path, text))
 }

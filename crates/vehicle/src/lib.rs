@@ -9,10 +9,13 @@ mod assemble;
 mod assembly;
 mod catalogue;
 mod check;
+mod convert;
 mod equipment;
 mod figures;
 mod findings;
+mod followers;
 mod hardware;
+mod model;
 mod provenance;
 mod read_vehicle;
 mod rotation;
@@ -23,6 +26,7 @@ mod vehicle;
 
 pub use catalogue::{CatalogueEntry, NoVehicle, catalogue, find_vehicle};
 pub use check::check_equipment;
+pub use convert::{ConvertOptions, convert_to_toml};
 pub use equipment::Equipment;
 pub use hardware::{
     EquipmentFile, HardwareEntry, SensorsFile, hardware, hardware_texts, read_equipment,
@@ -33,5 +37,6 @@ pub use read_vehicle::read_vehicle;
 pub use rotation::from_rpy_deg;
 pub use toml::vehicle_schema;
 pub use vehicle::{
-    GraspBounds, JOINTS, NamedFrame, Posture, Shape, ShapeKind, Vehicle, VehicleRobot,
+    Follower, GraspBounds, JOINTS, LinkMatter, NamedFrame, Posture, Shape, ShapeKind, Vehicle,
+    VehicleRobot, follow,
 };

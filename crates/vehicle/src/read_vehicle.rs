@@ -1,13 +1,15 @@
 //! A vehicle file to a vehicle, whatever its format.
 
+use crate::model::Model;
 use crate::toml::read_toml;
 use crate::urdf::read_urdf;
 use crate::vehicle::Vehicle;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use wrasse_document::{Complaint, Source};
 
 /// The vehicle that a file describes; its ending says the format (`.toml`, `.urdf` or
-/// `.xml`).
+/// `.xml`). Files that it includes are read from where it says, seen from its own folder.
 ///
 /// Warnings and notes are in [`Vehicle::remarks`].
 ///
@@ -18,17 +20,66 @@ pub fn read_vehicle(
     text: impl Into<String>,
 ) -> Result<Vehicle, Vec<Complaint>> {
     let source = Source::new(path, text);
+    read_model(&source, &mut Nesting::default())?.into_vehicle()
+}
+
+/// What a file says, with what it includes.
+///
+/// # Errors
+/// All complaints at once, if nothing can be made of it.
+pub(crate) fn read_model(
+    source: &Arc<Source>,
+    nesting: &mut Nesting,
+) -> Result<Model, Vec<Complaint>> {
     let ending = source.path.extension().and_then(|e| e.to_str()).map(str::to_lowercase);
+    nesting.open.push(source.path.clone());
     let read = match ending.as_deref() {
-        Some("toml") => read_toml(&source),
-        Some("urdf" | "xml") => read_urdf(&source),
+        Some("toml") => read_toml(source, nesting),
+        Some("urdf" | "xml") => read_urdf(source),
         other => {
             let found =
                 other.map_or("no ending".into(), |ending| format!("the ending '.{ending}'"));
             let message = format!("the ending of a vehicle file says its format, found {found}");
-            let complaint = Complaint::error(&source, message);
+            let complaint = Complaint::error(source, message);
             Err(vec![complaint.with_help("vehicle files end in .toml, .urdf or .xml")])
         }
     };
-    read.map(|vehicle| Vehicle { text: source.text.clone(), ..vehicle })
+    nesting.open.pop();
+    read
+}
+
+/// Most files that a vehicle is made of: a vehicle of that many parts is a mistake, or a trap.
+const MOST_FILES: usize = 64;
+/// Most files that include one another.
+const MOST_DEEP: usize = 8;
+
+/// Files that are being read, each included by the one before.
+#[derive(Debug, Default)]
+pub(crate) struct Nesting {
+    open: Vec<PathBuf>,
+    /// Files that were included so far.
+    included: usize,
+}
+
+impl Nesting {
+    /// Counts one more file; why it cannot be included, if so.
+    pub(crate) fn include(&mut self, path: &Path) -> Result<(), String> {
+        self.included += 1;
+        if self.open.iter().any(|open| same_file(open, path)) {
+            return Err("it includes itself, over others or at once".into());
+        }
+        if self.open.len() >= MOST_DEEP {
+            return Err(format!("more than {MOST_DEEP} files include one another"));
+        }
+        if self.included > MOST_FILES {
+            return Err(format!("the vehicle is made of more than {MOST_FILES} files"));
+        }
+        Ok(())
+    }
+}
+
+/// Whether two paths lead to one file, as far as the system can tell.
+fn same_file(a: &Path, b: &Path) -> bool {
+    let place = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    a == b || place(a) == place(b)
 }

@@ -1,14 +1,16 @@
 //! A checked vehicle: everything that the rest of the program knows of it.
 
+use crate::assembly::{Link, Matter};
 use crate::equipment::Equipment;
 use crate::provenance::Provenance;
-use wrasse_document::Complaint;
+use std::sync::Arc;
+use wrasse_document::{Complaint, Source};
 use wrasse_dynamics::{Frame, Robot};
 use wrasse_hardware::{AttitudeActuator, JointLimits, Sensors};
-use wrasse_spatial::{Pose, Vec3};
+use wrasse_spatial::{Pose, Sym3, Vec3};
 
 /// Most moving joints a vehicle can have.
-pub const JOINTS: usize = 40;
+pub const JOINTS: usize = 56;
 
 /// The robot of a vehicle file.
 pub type VehicleRobot = Robot<f64, JOINTS>;
@@ -22,12 +24,18 @@ pub struct Vehicle {
     pub summary: String,
     /// The whole text of its file.
     pub text: String,
+    /// The files that it includes, in the order in which they were read: path and text.
+    pub included: Vec<Arc<Source>>,
     /// Its dynamics.
     pub robot: VehicleRobot,
     /// Names of the moving joints, in the robot's order.
     pub joint_names: Vec<String>,
     /// Limits of the moving joints, in the robot's order.
     pub limits: Vec<JointLimits<f64>>,
+    /// Joints without a drive of their own: each moves as its leader does.
+    pub followers: Vec<Follower>,
+    /// The matter of each link that has any.
+    pub matter: Vec<LinkMatter>,
     /// Every link, mount and tool by name: fixed links are frames of the body that carries them.
     pub frames: Vec<NamedFrame>,
     /// Names of the frames that are tools, in the order of the file (empty for a URDF).
@@ -46,6 +54,53 @@ pub struct Vehicle {
     pub provenance: Vec<Provenance>,
     /// Warnings and notes of the reading: implausible values, tags not used.
     pub remarks: Vec<Complaint>,
+}
+
+/// A joint that follows another one: `q = ratio × q of the leader + offset`.
+///
+/// A gear without play: what the follower takes is taken from the leader, `ratio` times.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Follower {
+    /// Its number.
+    pub joint: usize,
+    /// The number of the joint that it follows, which has a drive of its own.
+    pub leader: usize,
+    /// Travel per travel of the leader (–, rad/m or m/rad), not zero.
+    pub ratio: f64,
+    /// Travel when the leader is at zero (rad or m).
+    pub offset: f64,
+}
+
+/// Puts each follower where its leader has it (rad or m).
+pub fn follow(followers: &[Follower], q: &mut [f64]) {
+    for &Follower { joint, leader, ratio, offset } in followers {
+        if let Some(&at) = q.get(leader)
+            && let Some(place) = q.get_mut(joint)
+        {
+            *place = ratio * at + offset;
+        }
+    }
+}
+
+/// What one link is made of, before it is merged with those fixed to it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LinkMatter {
+    /// Name of the link; its frame is that of [`Vehicle::frame`].
+    pub link: String,
+    /// Mass (kg).
+    pub mass: f64,
+    /// Centre of mass in link axes (m).
+    pub p_cm: Vec3<f64>,
+    /// Inertia about the centre of mass, in link axes (kg·m²).
+    pub inertia: Sym3<f64>,
+}
+
+impl LinkMatter {
+    pub(crate) fn of(link: &Link) -> Option<Self> {
+        let matter = link.matter.as_ref()?;
+        let &Matter { mass, p_cm, inertia, .. } = matter;
+        Some(Self { link: link.name.clone(), mass, p_cm, inertia })
+    }
 }
 
 /// A frame and its name.

@@ -1,7 +1,7 @@
 //! What a user is told about a URDF that is wrong: which complaint, where, and nothing besides.
 
 use wrasse_document::{Complaint, Severity, render};
-use wrasse_vehicle::{Vehicle, read_vehicle};
+use wrasse_vehicle::{JOINTS, Vehicle, read_vehicle};
 
 const ARM: &str = r#"<robot name="arm">
   <link name="bus">
@@ -138,7 +138,8 @@ fn each_fault_of_the_tree_is_told_at_its_place() {
         Mistake(r#"type="continuous""#, r#"type="planar""#, 31, "planar", "planar joints are not supported"),
         Mistake(r#"type="continuous""#, r#"type="continous""#, 31, "continous", "did you mean \"continuous\"?"),
         Mistake(r#"type="continuous""#, r#"type="helical""#, 31, "helical", "types are revolute, continuous"),
-        Mistake(r#"type="continuous">"#, r#"type="continuous"><mimic joint="shoulder"/>"#, 31, "mimic", "joint 'elbow' mimics another"),
+        Mistake(r#"type="continuous">"#, r#"type="continuous"><mimic joint="shoulderr"/>"#, 31, "shoulderr", "did you mean 'shoulder'?"),
+        Mistake(r#"type="continuous">"#, r#"type="continuous"><mimic joint="elbow"/>"#, 31, "elbow", "joint 'elbow' follows itself"),
     ]);
 }
 
@@ -263,14 +264,15 @@ fn too_many_moving_joints_are_an_error_at_the_first_that_does_not_fit() {
     let mut last = "tool".to_owned();
     let matter = "<inertial><mass value=\"1\"/><inertia ixx=\"0.01\" ixy=\"0\" ixz=\"0\" \
                   iyy=\"0.01\" iyz=\"0\" izz=\"0.01\"/></inertial>";
-    for k in 3..=41 {
+    for k in 3..=JOINTS + 1 {
         more += &joined_to(&last, k, matter);
         last = format!("l{k}");
     }
     let complaints = told(&ARM.replace("</robot>", &(more + "</robot>")));
     let [complaint] = &complaints[..] else { panic!("{complaints:#?}") };
-    assert_eq!(complaint.message, "41 moving joints: a vehicle has at most 40");
-    assert_eq!(under_the_caret(complaint), "j41");
+    let many = format!("{} moving joints: a vehicle has at most {JOINTS}", JOINTS + 1);
+    assert_eq!(complaint.message, many);
+    assert_eq!(under_the_caret(complaint), format!("j{}", JOINTS + 1));
 }
 
 fn joined_to(parent: &str, k: usize, matter: &str) -> String {

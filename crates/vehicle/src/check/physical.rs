@@ -1,51 +1,49 @@
 //! Whether the mass properties and joints of a file can be.
 
-use crate::assembly::{AssemblyJoint, Link, Matter};
+use crate::assembly::{AssemblyJoint, Link, Matter, Rounding};
 use crate::figures::figures;
 use crate::findings::Findings;
 use nalgebra::{Matrix3, SymmetricEigen};
-use wrasse_document::Severity;
-use wrasse_spatial::{Sym3, Vec3};
+use std::collections::BTreeSet;
+use std::ops::Range;
+use wrasse_spatial::{SpatialInertia, Sym3, Vec3};
 
-/// Complains of mass properties that no rigid body has.
-pub(crate) fn check_matter(link: &Link, found: &mut Findings) {
-    let Some(matter) = &link.matter else { return };
+/// What can be said of the mass properties of one link, before it is known what it is fixed to:
+/// complains of numbers that are not finite, and of a mass below zero. Whether they can be taken.
+pub(crate) fn check_numbers(link: &Link, found: &mut Findings) -> bool {
+    let Some(matter) = &link.matter else { return true };
     if !check_finite(link, matter, found) {
-        return;
+        return false;
     }
-    let name = &link.name;
-    let mut possible = matter.mass > 0.0;
-    if !possible {
-        let message = format!("mass of '{name}' must be positive, found {} kg", matter.mass);
+    if matter.mass < 0.0 {
+        let message = format!("mass of '{}' must be positive, found {} kg", link.name, matter.mass);
         let help = "leave out the mass properties of a link that is only a frame";
         found.error(&matter.mass_at, message, "this mass", help);
     }
-    if let Some(Wrong { message, help, flies }) = wrong_with_inertia(name, matter.inertia) {
-        possible = false;
-        match matter.accept_nonphysical.as_ref().filter(|_| flies) {
-            None => found.error(&matter.inertia_at, message, "this inertia", help),
-            Some(reason) => {
-                let help = format!("used as it stands, because the file says: {reason}");
-                found.add(Severity::Warning, &matter.inertia_at, message, "this inertia", &help);
-            }
+    matter.mass >= 0.0
+}
+
+/// Complains of the inertia of links that are surely a body of their own, where the links are no tree:
+/// those that no joint fixes to another.
+pub(crate) fn check_single_links(links: &[Link], joints: &[AssemblyJoint], found: &mut Findings) {
+    let fixed = joints.iter().filter(|joint| joint.kind.is_none());
+    let touched: BTreeSet<&str> = fixed.flat_map(|j| [&*j.parent, &*j.child]).collect();
+    for link in links.iter().filter(|link| !touched.contains(&*link.name)) {
+        let Some(matter) = &link.matter else { continue };
+        if matter.mass.is_finite() && is_finite(matter.p_cm) && is_finite_tensor(matter.inertia) {
+            let M = SpatialInertia::from_central(matter.mass, matter.p_cm, matter.inertia);
+            check_body(&[(link, matter)], &M, found);
         }
-    }
-    if possible && matter.accept_nonphysical.is_some() {
-        let message =
-            format!("'{name}' accepts non-physical mass properties, but its are possible");
-        found.warning(&link.at, message, "this link", "leave out `accept_nonphysical`");
     }
 }
 
 /// Complains of numbers that are not finite.
 fn check_finite(link: &Link, matter: &Matter, found: &mut Findings) -> bool {
     let help = "write a finite number";
-    let I = matter.inertia;
-    let inertia = [I.xx, I.xy, I.xz, I.yy, I.yz, I.zz];
     let checks = [
         ("mass", &matter.mass_at, matter.mass.is_finite()),
         ("centre of mass", &link.at, is_finite(matter.p_cm)),
-        ("inertia", &matter.inertia_at, inertia.iter().all(|x| x.is_finite())),
+        ("inertia", &matter.inertia_at, is_finite_tensor(matter.inertia)),
     ];
     for (what, at, _) in checks.iter().filter(|(_, _, finite)| !finite) {
         found.error(at, format!("{what} of '{}' is not finite", link.name), "not finite", help);
@@ -53,44 +51,206 @@ fn check_finite(link: &Link, matter: &Matter, found: &mut Findings) -> bool {
     checks.iter().all(|&(_, _, finite)| finite)
 }
 
+/// Complains of a body that no matter makes: links that are fixed to each other, and their inertia
+/// together, about the origin of the body.
+pub(crate) fn check_body(
+    parts: &[(&Link, &Matter)],
+    M_B: &SpatialInertia<f64>,
+    found: &mut Findings,
+) {
+    let mut alone: Vec<_> = parts.iter().map(|(_, matter)| wrong_alone(matter)).collect();
+    for ((link, matter), wrong) in parts.iter().zip(&alone) {
+        if wrong.is_none() && matter.accept_nonphysical.as_ref().is_some_and(|why| why.of_this) {
+            let message = format!(
+                "'{}' accepts non-physical mass properties, but its are possible",
+                link.name
+            );
+            found.warning(&link.at, message, "this link", "leave out `accept_nonphysical`");
+        }
+    }
+    if let [_] = parts {
+        let wrong = alone.pop().flatten();
+        return tell(parts, wrong, found);
+    }
+    let about_origin = M_B.rotational;
+    let whole = Body {
+        mass: M_B.mass,
+        inertia: if M_B.mass > 0.0 { M_B.central() } else { about_origin },
+        rounding: parts.iter().fold(Rounding::default(), |sum, (_, m)| sum.and(m.rounding)),
+        size: about_origin.xx + about_origin.yy + about_origin.zz,
+    };
+    let together = whole.wrong();
+    if together.is_none() {
+        for (part, wrong) in parts.iter().zip(alone) {
+            tell_of_part(*part, wrong, found);
+        }
+    }
+    tell(parts, together, found);
+}
+
+/// A body, or a link on its own.
+struct Body {
+    mass: f64,
+    /// About its centre of mass (kg·m²).
+    inertia: Sym3<f64>,
+    rounding: Rounding,
+    /// How large the numbers are that its inertia was computed from (kg·m²): what round-off is of.
+    size: f64,
+}
+
 /// What the triangle inequality may be broken by, as a part of the largest moment (–): a thin rod
 /// meets it with equality, and its file rounds each number on its own.
 const ROUND_OFF: f64 = 1e-9;
 
+/// Round-off of sums that bring an inertia to another point, as a part of what is summed (–).
+const OF_SUMS: f64 = 1e-12;
+
+/// What mass properties break.
+enum Wrong {
+    /// Inertia without mass.
+    NoMass,
+    /// The least moment is below zero.
+    Indefinite([f64; 3]),
+    /// The largest moment exceeds the sum of the others.
+    Triangle([f64; 3]),
+    /// The same, by no more than the digits that are written.
+    Rounded([f64; 3], f64),
+}
+
+fn wrong_alone(matter: &Matter) -> Option<Wrong> {
+    let &Matter { mass, inertia, rounding, p_cm, .. } = matter;
+    // A tensor is often computed from one about the frame, by taking away what the lever makes.
+    let size = inertia.xx + inertia.yy + inertia.zz + 2.0 * mass * p_cm.dot(p_cm);
+    Body { mass, inertia, rounding, size: size.abs() }.wrong()
+}
+
+/// Whether a tensor is no rigid body's, and could be one's by the digits that it is written with.
+pub(crate) fn is_rounded(matter: &Matter) -> bool {
+    matches!(wrong_alone(matter), Some(Wrong::Rounded(..)))
+}
+
+impl Body {
+    fn wrong(&self) -> Option<Wrong> {
+        let moments = principal_moments(self.inertia);
+        let [a, b, c] = moments;
+        let by_sums = OF_SUMS * self.size;
+        if self.mass == 0.0 && self.inertia != Sym3::zero() {
+            return Some(Wrong::NoMass);
+        }
+        let excess = c - a - b;
+        let rounded =
+            a >= -self.rounding.moment - by_sums && excess <= self.rounding.of_triangle() + by_sums;
+        if a >= -by_sums && excess <= ROUND_OFF * c.abs() + 3.0 * by_sums {
+            None
+        } else if rounded {
+            Some(Wrong::Rounded(moments, excess.max(-a)))
+        } else if a < -self.rounding.moment - by_sums {
+            Some(Wrong::Indefinite(moments))
+        } else {
+            Some(Wrong::Triangle(moments))
+        }
+    }
+}
+
+/// The names of the links of a body, for a complaint about its inertia.
+fn names(parts: &[(&Link, &Matter)]) -> String {
+    let all: Vec<_> = parts.iter().map(|(link, _)| format!("'{}'", link.name)).collect();
+    match &all[..] {
+        [one] => one.clone(),
+        [first, others @ ..] if others.len() <= 3 => {
+            format!("{first} with what is fixed to it ({})", others.join(", "))
+        }
+        [first, others @ ..] => format!("{first} with {} links fixed to it", others.len()),
+        [] => "nothing".into(),
+    }
+}
+
+/// One complaint about a body.
+fn tell(parts: &[(&Link, &Matter)], wrong: Option<Wrong>, found: &mut Findings) {
+    let Some(wrong) = wrong else { return };
+    // The part that is wrong by itself is where to look.
+    let guilty = parts.iter().find(|(_, matter)| wrong_alone(matter).is_some());
+    let Some((_, matter)) = guilty.or(parts.first()) else { return };
+    let (at, name) = (&matter.inertia_at, names(parts));
+    match wrong {
+        Wrong::NoMass => {
+            let message = format!("mass of {name} must be positive, found 0 kg");
+            let help = "leave out the mass properties of a link that is only a frame";
+            refuse_or_accept(parts, (&matter.mass_at, message, "this mass", help), found);
+        }
+        Wrong::Indefinite(moments) => {
+            let message = format!(
+                "inertia of {name} is not positive definite: its principal moments are {} kg·m²",
+                listed(moments)
+            );
+            let help = "give a small part the inertia of a ball, 0.4 m r²; \
+                        check the signs of the products of inertia";
+            found.error(at, message, "this inertia", help);
+        }
+        Wrong::Triangle(moments) => {
+            let message = triangle(&name, moments);
+            refuse_or_accept(parts, (at, message, "this inertia", IMPOSSIBLE), found);
+        }
+        Wrong::Rounded(moments, by) => {
+            let message = format!(
+                "inertia of {name} is no rigid body's by {} kg·m², which is within the digits that \
+                 are written: its principal moments are {} kg·m²",
+                figures(by),
+                listed(moments)
+            );
+            let help = "used as it stands; one digit more would settle it";
+            found.warning(at, message, "rounded", help);
+        }
+    }
+}
+
+/// An error, or a warning where the file gives its reason.
+fn refuse_or_accept(
+    parts: &[(&Link, &Matter)],
+    (at, message, label, help): (&Range<usize>, String, &str, &str),
+    found: &mut Findings,
+) {
+    match parts.iter().find_map(|(_, matter)| matter.accept_nonphysical.as_ref()) {
+        None => found.error(at, message, label, help),
+        Some(why) => {
+            let help = format!("used as it stands, because the file says: {}", why.reason);
+            found.warning(at, message, label, &help);
+        }
+    }
+}
+
+/// What is wrong with a link alone, when the body that it is part of can be.
+fn tell_of_part((link, matter): (&Link, &Matter), wrong: Option<Wrong>, found: &mut Findings) {
+    let what = match wrong {
+        None | Some(Wrong::Rounded(..)) => return,
+        Some(Wrong::NoMass) => format!("'{}' has an inertia and no mass", link.name),
+        Some(Wrong::Indefinite(moments)) => {
+            format!("principal moments of '{}' are {} kg·m²", link.name, listed(moments))
+        }
+        Some(Wrong::Triangle(moments)) => triangle(&format!("'{}'", link.name), moments),
+    };
+    let help = "it is fixed to others, and together they are a body that can be: used as it stands";
+    found.warning(&matter.inertia_at, what, "no rigid body alone", help);
+}
+
+fn listed(moments: [f64; 3]) -> String {
+    moments.map(figures).join(", ")
+}
+
+fn triangle(name: &str, moments: [f64; 3]) -> String {
+    let [a, b, c] = moments;
+    format!(
+        "inertia of {name} breaks the triangle inequality: of its principal moments {} kg·m² the \
+         largest exceeds the sum of the others by {} kg·m²",
+        listed(moments),
+        figures(c - a - b)
+    )
+}
+
 /// What to do about it.
 const IMPOSSIBLE: &str = "no rigid body is like this: is it about the centre of mass? A TOML file can \
-                          say `accept_nonphysical = \"reason\"` where published data are so";
-
-/// What a central inertia breaks, and how to mend it.
-struct Wrong {
-    message: String,
-    help: &'static str,
-    /// Whether equations of motion can be solved with it all the same.
-    flies: bool,
-}
-
-fn wrong_with_inertia(name: &str, inertia: Sym3<f64>) -> Option<Wrong> {
-    let moments = principal_moments(inertia);
-    let [a, b, c] = moments;
-    let shown = moments.map(figures).join(", ");
-    if a <= 0.0 {
-        let message = format!(
-            "inertia of '{name}' is not positive definite: its principal moments are \
-             {shown} kg·m²"
-        );
-        let help = "give a small part the inertia of a ball, 0.4 m r²; \
-                    check the signs of the products of inertia";
-        return Some(Wrong { message, help, flies: false });
-    }
-    (c > (a + b) * (1.0 + ROUND_OFF)).then(|| {
-        let message = format!(
-            "inertia of '{name}' breaks the triangle inequality: of its principal moments {shown} \
-             kg·m² the largest exceeds the sum of the others by {} kg·m²",
-            figures(c - a - b)
-        );
-        Wrong { message, help: IMPOSSIBLE, flies: true }
-    })
-}
+                          say `accept_nonphysical = \"reason\"`, of a body or of an [[include]], where \
+                          published data are so";
 
 /// When to give up on eigenvalues: nalgebra goes on until it converges unless told; a 3×3 takes
 /// about ten steps.
@@ -155,6 +315,10 @@ fn check_limits(joint: &AssemblyJoint, found: &mut Findings) {
             found.error(at, message, "this limit", "limits are magnitudes: leave out the sign");
         }
     }
+}
+
+fn is_finite_tensor(I: Sym3<f64>) -> bool {
+    [I.xx, I.xy, I.xz, I.yy, I.yz, I.zz].iter().all(|x| x.is_finite())
 }
 
 fn is_finite(a: Vec3<f64>) -> bool {

@@ -61,8 +61,8 @@ fn first_of_each_name<'a>(
     // A missing name has had its complaint, and is empty.
     for (place, (name, at)) in named.enumerate().filter(|(_, (name, _))| !name.is_empty()) {
         if let Some((_, first_at)) = first.get(name) {
-            let line = found.line(first_at.start);
-            let message = format!("two {kind}s are called '{name}'; the other is on line {line}");
+            let line = found.line(first_at.start, at);
+            let message = format!("two {kind}s are called '{name}'; the other is on {line}");
             found.error(at, message, "the second", "give one of them another name");
         } else {
             first.insert(name, (place, at));
@@ -120,10 +120,10 @@ fn carriers(
         if let Some(&other) = carriers[child].first() {
             let (link, other) = (&links[child].name, &joints[other]);
             let message = format!(
-                "link '{link}' is the child of '{}' and already of '{}' on line {}",
+                "link '{link}' is the child of '{}' and already of '{}' on {}",
                 joints[j].name,
                 other.name,
-                found.line(other.child_at.start)
+                found.line(other.child_at.start, &joints[j].child_at)
             );
             let help = "a vehicle is a tree: each link hangs on one joint";
             found.error(&joints[j].child_at, message, "a second parent", help);
@@ -221,9 +221,9 @@ fn complain_of_roots(links: &[Link], roots: &[usize], found: &mut Findings) {
     let first = &links[roots[0]];
     for &other in &roots[1..] {
         let message = format!(
-            "links '{}' (line {}) and '{}' both have no parent: a vehicle has one root",
+            "links '{}' ({}) and '{}' both have no parent: a vehicle has one root",
             first.name,
-            found.line(first.at.start),
+            found.line(first.at.start, &links[other].at),
             links[other].name
         );
         let help = "connect one of them to the rest with a joint";

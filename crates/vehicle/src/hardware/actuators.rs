@@ -234,8 +234,8 @@ impl Units {
             let known = named[..i].iter().find(|(known, place)| known == name && place != at);
             let Some((_, other)) = known.filter(|_| !told.contains(&at)) else { continue };
             told.push(at);
-            let line = reading.found.line(other.start);
-            let message = format!("two units are called '{name}'; the other is on line {line}");
+            let line = reading.found.line(other.start, at);
+            let message = format!("two units are called '{name}'; the other is on {line}");
             reading.found.error(at, message, "the second", "give one of them another name");
         }
     }

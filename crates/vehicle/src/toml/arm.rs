@@ -159,6 +159,7 @@ fn joint(
         axis_at: reading.at(path),
         limits: limits(reading, path, &row.joint, row.kind, &row.limits),
         limits_at: reading.below(path, limits_key(&row.limits)),
+        mimic: None,
     }
 }
 

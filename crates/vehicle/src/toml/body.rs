@@ -1,6 +1,6 @@
 //! The tables `[[body]]`: mass properties about a named point in named axes, and outlines.
 
-use crate::assembly::{Link, Matter};
+use crate::assembly::{Acceptance, Link, Matter, Rounding};
 use crate::rotation::from_rpy_deg;
 use crate::table::{OrientationFile, ProvenanceFile, QuaternionFile, Reading, under};
 use crate::vehicle::ShapeKind;
@@ -145,8 +145,22 @@ fn matter(
         p_cm,
         inertia,
         inertia_at: reading.below(path, "inertia_kgm2"),
-        accept_nonphysical: body.accept_nonphysical.clone(),
+        rounding: rounding(reading, &under(path, "inertia_kgm2")),
+        accept_nonphysical: body
+            .accept_nonphysical
+            .clone()
+            .map(|reason| Acceptance { reason, of_this: true }),
     }
+}
+
+/// How far the tensor at a path may be from what was meant, by the digits of its elements.
+fn rounding(reading: &Reading<'_>, path: &[Step<'_>]) -> Rounding {
+    let text = &reading.document.source().text;
+    let written = |key: &str| {
+        // A key that is left out stands nowhere of its own.
+        reading.document.exact_span(&under(path, key)).and_then(|at| text.get(at)).unwrap_or("0")
+    };
+    Rounding::of_written(["xx", "xy", "xz", "yy", "yz", "zz"].map(written))
 }
 
 /// Mass, centre of mass and inertia come together or not at all.

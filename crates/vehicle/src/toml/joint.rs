@@ -1,6 +1,6 @@
 //! The tables `[[joint]]`: how each moves, and what it can do.
 
-use crate::assembly::AssemblyJoint;
+use crate::assembly::{AssemblyJoint, Mimic};
 use crate::table::{OrientationFile, ProvenanceFile, Reading, under};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -33,9 +33,27 @@ pub(crate) struct JointFile {
     /// What it can do.
     #[serde(flatten)]
     pub(crate) limits: LimitsFile,
+    /// The joint that it follows, if it has no drive of its own.
+    pub(crate) mimic: Option<MimicFile>,
     /// Where these numbers come from.
     #[serde(flatten)]
     pub(crate) provenance: ProvenanceFile,
+}
+
+/// A joint that follows another one, by a gear without play: its travel is `ratio` times that of the
+/// other, plus the offset; torque or force on it is felt by the other, `ratio` times.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct MimicFile {
+    /// The joint that is followed.
+    #[schemars(length(min = 1))]
+    pub(crate) joint: String,
+    /// Travel per travel of the other, in SI (rad or m per rad or m); 1 if not given.
+    pub(crate) ratio: Option<f64>,
+    /// Travel when the other is at zero, of a joint that turns (deg); zero if not given.
+    pub(crate) offset_deg: Option<f64>,
+    /// Travel when the other is at zero, of a joint that slides (m); zero if not given.
+    pub(crate) offset_m: Option<f64>,
 }
 
 /// How a joint moves.
@@ -100,7 +118,25 @@ pub(crate) fn joint(
         axis_at,
         limits: limits(reading, path, &file.name, file.kind, &file.limits),
         limits_at,
+        mimic: mimic(reading, path, file),
     }
+}
+
+/// What a joint follows; complains of an offset in the unit of another kind of joint.
+fn mimic(reading: &mut Reading<'_>, path: &[Step<'_>], file: &JointFile) -> Option<Mimic> {
+    let given = file.mimic.as_ref()?;
+    let path = under(path, "mimic");
+    let (wrong, right) = match moving(file.kind) {
+        Some(JointKind::Prismatic) => (given.offset_deg.map(|_| "offset_deg"), "offset_m"),
+        _ => (given.offset_m.map(|_| "offset_m"), "offset_deg"),
+    };
+    if let Some(key) = wrong {
+        let message = format!("joint '{}' is of another kind than `{key}`", file.name);
+        reading.wrong_key(&under(&path, key), message, "wrong unit", &format!("write `{right}`"));
+    }
+    let offset = given.offset_deg.map(f64::to_radians).or(given.offset_m).unwrap_or(0.0);
+    let at = reading.below(&path, "joint");
+    Some(Mimic { leader: given.joint.clone(), at, ratio: given.ratio.unwrap_or(1.0), offset })
 }
 
 fn axis(reading: &mut Reading<'_>, path: &[Step<'_>], file: &JointFile) -> Vec3<f64> {

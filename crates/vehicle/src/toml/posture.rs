@@ -3,14 +3,15 @@
 use crate::assemble::AssembledRobot;
 use crate::assembly::AssemblyJoint;
 use crate::table::{Reading, SourceFile};
-use crate::vehicle::Posture;
+use crate::vehicle::{Posture, follow};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use wrasse_document::{Step, at, closest};
 use wrasse_dynamics::JointKind;
 
-/// Named positions of the joints; a joint that is not named is at zero.
+/// Named positions of the joints; a joint that is not named is at zero, or at the end of its travel that
+/// is nearest to it.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PostureFile {
@@ -33,13 +34,17 @@ pub(crate) fn check_postures(
     postures: &[PostureFile],
     joints: &[AssemblyJoint],
 ) {
-    let moving = joints.iter().filter_map(|j| Some((j.name.as_str(), (j.kind?, j.limits.travel))));
+    let moving = joints.iter().filter_map(|joint| {
+        let leader = joint.mimic.as_ref().map(|mimic| &*mimic.leader);
+        Some((&*joint.name, (joint.kind?, joint.limits.travel, leader)))
+    });
     let moving: BTreeMap<_, _> = moving.collect();
     for (i, posture) in postures.iter().enumerate() {
         if let Some(first) = postures[..i].iter().position(|p| p.name == posture.name) {
-            let line = reading.found.line(reading.at(at!["posture", first, "name"]).start);
+            let [there, here] = [first, i].map(|i| reading.at(at!["posture", i, "name"]));
+            let line = reading.found.line(there.start, &here);
             let message =
-                format!("two postures are called '{}'; the other is on line {line}", posture.name);
+                format!("two postures are called '{}'; the other is on {line}", posture.name);
             let help = "give one of them another name";
             reading.error(at!["posture", i, "name"], message, "the second", help);
         }
@@ -55,8 +60,8 @@ pub(crate) fn check_postures(
     }
 }
 
-/// Joints that move, by name: how, and from where to where (rad or m).
-type Moving<'a> = BTreeMap<&'a str, (JointKind, Option<(f64, f64)>)>;
+/// Joints that move, by name: how, from where to where (rad or m), and which joint they follow.
+type Moving<'a> = BTreeMap<&'a str, (JointKind, Option<(f64, f64)>, Option<&'a str>)>;
 
 fn check_position(
     reading: &mut Reading<'_>,
@@ -66,7 +71,7 @@ fn check_position(
     moving: &Moving<'_>,
 ) {
     let name = path.last().map(ToString::to_string).unwrap_or_default();
-    let Some((moves, travel)) = moving.get(name.as_str()) else {
+    let Some((moves, travel, leader)) = moving.get(name.as_str()) else {
         // A joint whose name is left out may be meant.
         if moving.contains_key("") {
             return;
@@ -81,6 +86,11 @@ fn check_position(
         };
         return reading.wrong_key(path, message, "no such joint", &help);
     };
+    if let Some(leader) = leader {
+        let message = format!("joint '{name}' follows '{leader}'");
+        let help = format!("name '{leader}' in its place");
+        return reading.wrong_key(path, message, "no drive of its own", &help);
+    }
     if *moves != kind {
         let (does, write) = match moves {
             JointKind::Revolute => ("turns", "joints_deg"),
@@ -104,11 +114,23 @@ fn check_position(
     }
 }
 
-/// A posture in the order of the robot's joints.
-pub(crate) fn posture(file: &PostureFile, assembled: &AssembledRobot) -> Posture {
-    let position = |name: &String| {
-        let turned = file.joints_deg.get(name).copied().map(f64::to_radians);
-        turned.or_else(|| file.joints_m.get(name).copied()).unwrap_or(0.0)
-    };
-    Posture { name: file.name.clone(), q: assembled.joint_names.iter().map(position).collect() }
+/// The positions that a posture gives, by joint (rad or m).
+pub(crate) fn given_posture(file: &PostureFile) -> (String, BTreeMap<String, f64>) {
+    let turned = file.joints_deg.iter().map(|(joint, deg)| (joint.clone(), deg.to_radians()));
+    let slid = file.joints_m.iter().map(|(joint, m)| (joint.clone(), *m));
+    (file.name.clone(), turned.chain(slid).collect())
+}
+
+/// A posture in the order of the robot's joints: a joint that is not named is at zero, or at the end of
+/// its travel that is nearest to it; one that follows another is where that one has it.
+pub(crate) fn posture_of(
+    (name, positions): &(String, BTreeMap<String, f64>),
+    assembled: &AssembledRobot,
+) -> Posture {
+    let each = assembled.joint_names.iter().zip(&assembled.limits);
+    let mut q: Vec<f64> = each
+        .map(|(joint, limits)| positions.get(joint).copied().unwrap_or(limits.nearest_to_zero()))
+        .collect();
+    follow(&assembled.followers, &mut q);
+    Posture { name: name.clone(), q }
 }

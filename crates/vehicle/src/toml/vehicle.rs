@@ -3,23 +3,22 @@
 use super::arm::{ArmFile, arm};
 use super::attitude_actuator::{ActuatorFile, attitude_actuator};
 use super::body::{BodyFile, link, outline};
+use super::include::{IncludeFile, include, mount};
 use super::joint::{JointFile, joint};
-use super::posture::{PostureFile, check_postures, posture};
+use super::posture::{PostureFile, check_postures, given_posture};
 use super::tool::{ToolFile, grasp_bounds, tool};
-use crate::assemble::{AssembledRobot, assemble};
-use crate::assembly::{AssemblyJoint, Link};
-use crate::check::check_equipment;
+use crate::assembly::{Assembly, AssemblyJoint, Link, Outline};
 use crate::equipment::Equipment;
+use crate::findings::SourceFiles;
 use crate::hardware::{EquipmentFile, SensorsFile, equipment, sensors};
+use crate::model::Model;
+use crate::read_vehicle::Nesting;
 use crate::table::{ProvenanceFile, Reading, SourceFile, Sources};
-use crate::vehicle::{Shape, ShapeKind, Vehicle};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::sync::Arc;
 use wrasse_document::{Complaint, Document, Source, UNKNOWN, at};
-use wrasse_dynamics::Frame;
 use wrasse_hardware::Sensors;
-use wrasse_spatial::Pose;
 
 /// A vehicle: a free-flying base and what hangs on it.
 ///
@@ -36,7 +35,11 @@ pub(crate) struct VehicleFile {
     /// Where all those numbers come from that have no source of their own.
     pub(crate) source: Option<SourceFile>,
     /// Rigid bodies, each with a frame of its own.
+    #[serde(default)]
     pub(crate) body: Vec<BodyFile>,
+    /// Other vehicle files, whose links and joints come after those of this one.
+    #[serde(default)]
+    pub(crate) include: Vec<IncludeFile>,
     /// Joints, each given by the pose of the child's frame on the parent.
     #[serde(default)]
     pub(crate) joint: Vec<JointFile>,
@@ -57,79 +60,81 @@ pub(crate) struct VehicleFile {
     pub(crate) sensors: Option<SensorsFile>,
 }
 
-/// The vehicle of a TOML file.
+/// What a TOML file says.
 ///
 /// # Errors
-/// All that is wrong with the shape of the file, and all that is wrong with what the rest says.
-pub(crate) fn read_toml(source: &Arc<Source>) -> Result<Vehicle, Vec<Complaint>> {
+/// All that is wrong with the shape of the file, if too much is wrong to go on.
+pub(crate) fn read_toml(
+    source: &Arc<Source>,
+    nesting: &mut Nesting,
+) -> Result<Model, Vec<Complaint>> {
     let document = Document::of(source)?;
     let part = document.read_in_part::<VehicleFile>();
     let Some(file) = part.value else { return Err(part.complaints) };
-    match vehicle_of(source, &part.document, file) {
-        Ok(vehicle) if part.complaints.is_empty() => Ok(vehicle),
-        Ok(_) => Err(part.complaints),
-        Err(meaning) => Err(document.beside(part.complaints, meaning)),
-    }
+    let model = model_of(&part.document, file, nesting);
+    Ok(Model { document: Some(document), shape: part.complaints, ..model })
 }
 
-/// The vehicle of a file whose shape is right.
-fn vehicle_of(
-    source: &Arc<Source>,
-    document: &Document,
-    file: VehicleFile,
-) -> Result<Vehicle, Vec<Complaint>> {
+/// What a file says whose shape is right.
+fn model_of(document: &Document, file: VehicleFile, nesting: &mut Nesting) -> Model {
     let mut reading = Reading::new(document);
-    let (mut links, mut joints) = tree_of(&mut reading, &file);
-    forget_made_up_names(&mut links, &mut joints);
-    let outlines = outlines(&mut reading, &file);
+    let mut assembly = assembly_of(&mut reading, &file);
+    let includes = includes(&mut reading, &file, nesting, &mut assembly);
+    forget_made_up_names(&mut assembly.links, &mut assembly.joints);
     let attitude_actuator =
         file.attitude_actuator.as_ref().map(|given| attitude_actuator(&mut reading, given));
-    check_postures(&mut reading, &file.posture, &joints);
-    let grasp_bounds = grasp_bounds(&mut reading, &file.tool);
+    check_postures(&mut reading, &file.posture, &assembly.joints);
     let mut sources = sources(&mut reading, &file);
     let equipment = equipment_of(&mut reading, &mut sources, &file);
     let sensors = sensors_of(&mut reading, &mut sources, &file);
     sources.warn(&mut reading);
-    let assembled = match assemble(source, &links, &joints) {
-        Ok(assembled) => assembled,
-        Err(complaints) => {
-            reading.found.take(complaints);
-            return Err(reading.found.into_complaints());
-        }
-    };
-    let mut found = reading.found;
-    if found.without_error() && file.actuators.is_some() {
-        found.take(check_equipment(document, at!["actuators"], &equipment, &assembled.robot));
+    // Its own come first, those of what it includes behind them.
+    assembly.provenance.splice(0..0, sources.rows);
+    if file.body.is_empty() && includes == 0 && file.include.is_empty() {
+        let message = "the file has neither a body nor an include".to_owned();
+        let help = "a vehicle has at least its base: a [[body]], or an [[include]] of another file";
+        reading.error(at!["name"], message, "this vehicle", help);
     }
-    if !found.without_error() {
-        found.take(assembled.warnings);
-        return Err(found.into_complaints());
-    }
-    let postures = file.posture.iter().map(|p| posture(p, &assembled)).collect();
-    let shapes = shapes(outlines, &assembled);
-    found.take(assembled.warnings);
-    let mut frames = assembled.frames;
-    for (tool, bounds) in file.tool.iter().zip(grasp_bounds) {
-        let of_tool = frames.iter_mut().filter(|frame| frame.name == tool.name);
-        of_tool.for_each(|frame| frame.grasp_bounds = bounds);
-    }
-    Ok(Vehicle {
-        text: String::new(),
-        name: file.name,
-        summary: file.summary,
-        robot: assembled.robot,
-        joint_names: assembled.joint_names,
-        limits: assembled.limits,
-        frames,
-        tools: file.tool.iter().map(|tool| tool.name.clone()).collect(),
-        postures,
+    Model {
         attitude_actuator,
         equipment,
         sensors,
-        shapes,
-        provenance: sources.rows,
-        remarks: found.into_complaints(),
-    })
+        found: reading.found.into_complaints(),
+        ..Model::bare(file.name, file.summary, assembly)
+    }
+}
+
+/// Puts what the file includes behind its own. How many of them could be read.
+fn includes(
+    reading: &mut Reading<'_>,
+    file: &VehicleFile,
+    nesting: &mut Nesting,
+    assembly: &mut Assembly,
+) -> usize {
+    let mut count = 0;
+    for (i, given) in file.include.iter().enumerate() {
+        let Some(included) = include(reading, at!["include", i], given, nesting) else { continue };
+        assembly.joints.extend(mount(reading, at!["include", i], given, &included));
+        assembly.append(included);
+        count += 1;
+    }
+    count
+}
+
+/// What the file says itself of links and joints: bodies, joints, arms, tools, in this order.
+fn assembly_of(reading: &mut Reading<'_>, file: &VehicleFile) -> Assembly {
+    let (links, joints) = tree_of(reading, file);
+    let bounds = grasp_bounds(reading, &file.tool);
+    let tools = file.tool.iter().map(|tool| tool.name.clone());
+    Assembly {
+        files: SourceFiles::of(reading.document.source()),
+        links,
+        joints,
+        outlines: outlines(reading, file),
+        tools: tools.zip(bounds).collect(),
+        postures: file.posture.iter().map(given_posture).collect(),
+        provenance: vec![],
+    }
 }
 
 /// Links and joints: bodies, joints, arms, tools, in this order.
@@ -164,25 +169,17 @@ fn forget_made_up_names(links: &mut [Link], joints: &mut [AssemblyJoint]) {
     }
 }
 
-/// Outlines with the body they belong to and their place in its frame.
-fn outlines(reading: &mut Reading<'_>, file: &VehicleFile) -> Vec<(String, Pose<f64>, ShapeKind)> {
+/// Outlines of the bodies.
+fn outlines(reading: &mut Reading<'_>, file: &VehicleFile) -> Vec<Outline> {
     let mut outlines = vec![];
     for (i, body) in file.body.iter().enumerate() {
         for (k, shape) in body.shape.iter().enumerate() {
             let drawn = outline(reading, at!["body", i, "shape", k], body, shape);
-            outlines.extend(drawn.map(|(X_LS, kind)| (body.name.clone(), X_LS, kind)));
+            let of_body = |(X_LF, kind)| Outline { link: body.name.clone(), X_LF, kind };
+            outlines.extend(drawn.map(of_body));
         }
     }
     outlines
-}
-
-fn shapes(outlines: Vec<(String, Pose<f64>, ShapeKind)>, assembled: &AssembledRobot) -> Vec<Shape> {
-    let placed = outlines.into_iter().filter_map(|(link, X_LS, kind)| {
-        let on = assembled.frames.iter().find(|named| named.name == link)?.frame;
-        let frame = Frame { body: on.body, X_BF: on.X_BF * X_LS };
-        Some(Shape { link, frame, kind })
-    });
-    placed.collect()
 }
 
 /// Where the numbers of each block come from.
@@ -204,6 +201,9 @@ fn sources(reading: &mut Reading<'_>, file: &VehicleFile) -> Sources {
     for (i, arm) in file.arm.iter().enumerate() {
         block("arm", i, &arm.name, &arm.provenance);
     }
+    for (i, include) in file.include.iter().enumerate() {
+        block("include", i, &include.vehicle, &include.provenance);
+    }
     for (i, tool) in file.tool.iter().enumerate() {
         block("tool", i, &tool.name, &alone(&tool.source));
     }
@@ -218,12 +218,16 @@ fn sources(reading: &mut Reading<'_>, file: &VehicleFile) -> Sources {
 }
 
 /// The equipment, if there is any.
-fn equipment_of(reading: &mut Reading<'_>, sources: &mut Sources, file: &VehicleFile) -> Equipment {
-    let Some(table) = &file.actuators else { return Equipment::default() };
+fn equipment_of(
+    reading: &mut Reading<'_>,
+    sources: &mut Sources,
+    file: &VehicleFile,
+) -> Option<Equipment> {
+    let table = file.actuators.as_ref()?;
     let mut of_table = Sources::within("actuators", table.source.as_ref(), sources.covered());
     let equipment = equipment(reading, &mut of_table, at!["actuators"], table);
     sources.take_without(&mut of_table);
-    equipment
+    Some(equipment)
 }
 
 /// The sensors, if the file says of any.

@@ -1,7 +1,7 @@
 //! A `<joint>`: how it moves, what it connects, what limits it.
 
-use super::element::{Element, Kind, Reading, Text, tag_at};
-use crate::assembly::AssemblyJoint;
+use super::element::{Element, Kind, Reading, Text};
+use crate::assembly::{AssemblyJoint, Mimic};
 use roxmltree::Node;
 use std::ops::Range;
 use wrasse_document::closest;
@@ -18,6 +18,12 @@ const JOINT: Kind = Kind {
 const PARENT: Kind = Kind { tag: "parent", attributes: &["link"], children: &[], unused: &[] };
 const CHILD: Kind = Kind { tag: "child", attributes: &["link"], children: &[], unused: &[] };
 const AXIS: Kind = Kind { tag: "axis", attributes: &["xyz"], children: &[], unused: &[] };
+const MIMIC: Kind = Kind {
+    tag: "mimic",
+    attributes: &["joint", "multiplier", "offset"],
+    children: &[],
+    unused: &[],
+};
 const LIMIT: Kind = Kind {
     tag: "limit",
     attributes: &["lower", "upper", "effort", "velocity"],
@@ -67,13 +73,7 @@ impl Reading<'_> {
         let child = self.end_of_joint(&element, &CHILD);
         let (axis, axis_at) = self.axis(&element);
         let (limits, limits_at) = self.limits(&element, called, kind);
-        if let Some(mimic) = element.only("mimic", self) {
-            let message =
-                format!("joint '{called}' mimics another: mimic joints are not supported");
-            let help = "each moving joint has its own drive here; fix it, or leave out <mimic>";
-            let at = tag_at(mimic, self.text);
-            self.found.error(&at, message, "not supported", help);
-        }
+        let mimic = element.only("mimic", self).and_then(|node| self.mimic(node));
         let joint = AssemblyJoint {
             name: name.text.to_owned(),
             at: name.at,
@@ -91,8 +91,18 @@ impl Reading<'_> {
             axis_at,
             limits,
             limits_at,
+            mimic,
         };
         UrdfJoint { joint, kind, kind_at }
+    }
+
+    /// The joint that is followed: travel `multiplier × q + offset`.
+    fn mimic(&mut self, node: Node<'_, '_>) -> Option<Mimic> {
+        let element = self.open(node, &MIMIC);
+        let leader = element.required("joint", self)?;
+        let ratio = self.number(&element, "multiplier").unwrap_or(1.0);
+        let offset = self.number(&element, "offset").unwrap_or(0.0);
+        Some(Mimic { leader: leader.text.to_owned(), at: leader.at, ratio, offset })
     }
 
     /// The type; after a complaint the joint stands in as a fixed one.

@@ -1,7 +1,7 @@
 //! A `<link>`: its mass properties, and its visual boxes, cylinders and balls for drawings.
 
 use super::element::{Element, Kind, Reading, tag_at};
-use crate::assembly::{Link, Matter};
+use crate::assembly::{Link, Matter, Outline, Rounding};
 use crate::vehicle::ShapeKind;
 use roxmltree::Node;
 use std::ops::Range;
@@ -43,14 +43,6 @@ const CYLINDER: Kind =
     Kind { tag: "cylinder", attributes: &["radius", "length"], children: &[], unused: &[] };
 const SPHERE: Kind = Kind { tag: "sphere", attributes: &["radius"], children: &[], unused: &[] };
 
-/// The outline of a link, in link axes.
-#[derive(Debug)]
-pub(crate) struct Outline {
-    pub(crate) link: String,
-    pub(crate) X_LF: Pose<f64>,
-    pub(crate) kind: ShapeKind,
-}
-
 impl Reading<'_> {
     /// A link and its outlines; nothing if it has no name.
     pub(crate) fn link(&mut self, node: Node<'_, '_>) -> Option<(Link, Vec<Outline>)> {
@@ -77,10 +69,11 @@ impl Reading<'_> {
             }
             None => (None, element.at.clone()),
         };
-        let (inertia, inertia_at) = match self.child_that_must_be(&element, "inertia", &INERTIA) {
+        let (given, inertia_at) = match self.child_that_must_be(&element, "inertia", &INERTIA) {
             Some(child) => (self.inertia(&child), child.at.clone()),
             None => (None, element.at.clone()),
         };
+        let (inertia, rounding) = given.unzip();
         if mass == Some(0.0) && inertia == Some(Sym3::zero()) {
             let message = "mass and inertia are zero: read as a mere frame".to_owned();
             self.found.warning(&mass_at, message, "no mass", "a frame has no <inertial>");
@@ -90,6 +83,7 @@ impl Reading<'_> {
             mass: mass.unwrap_or(1.0),
             mass_at,
             p_cm: X_LC.translation,
+            rounding: rounding.unwrap_or_default(),
             // URDF gives it about the centre of mass, in the axes of the inertial origin.
             inertia: X_LC.rotation.congruence(inertia.unwrap_or(Sym3::diagonal(1.0, 1.0, 1.0))),
             inertia_at,
@@ -97,14 +91,15 @@ impl Reading<'_> {
         })
     }
 
-    fn inertia(&mut self, element: &Element<'_, '_>) -> Option<Sym3<f64>> {
+    fn inertia(&mut self, element: &Element<'_, '_>) -> Option<(Sym3<f64>, Rounding)> {
         // All six are read before any is missed: each complaint is told.
-        let elements = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"]
-            .map(|name| self.required_number(element, name));
+        let names = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
+        let elements = names.map(|name| self.required_number(element, name));
         let [Some(xx), Some(xy), Some(xz), Some(yy), Some(yz), Some(zz)] = elements else {
             return None;
         };
-        Some(Sym3 { xx, xy, xz, yy, yz, zz })
+        let written = names.map(|name| element.attribute(name).map_or("", |text| text.text.trim()));
+        Some((Sym3 { xx, xy, xz, yy, yz, zz }, Rounding::of_written(written)))
     }
 
     fn child_that_must_be<'a, 'input>(

@@ -6,4 +6,4 @@ mod link;
 mod numbers;
 mod robot;
 
-pub(crate) use robot::read_urdf;
+pub(crate) use robot::{NO_PROVENANCE, read_urdf};

@@ -2,19 +2,14 @@
 
 use super::element::{Element, Kind, Reading, tag_at};
 use super::joint::{Type, UrdfJoint};
-use super::link::Outline;
-use crate::assemble::{AssembledRobot, assemble};
-use crate::assembly::{AssemblyJoint, Link};
-use crate::equipment::Equipment;
-use crate::findings::Findings;
+use crate::assembly::{Assembly, AssemblyJoint, Link, Outline};
+use crate::findings::{Findings, SourceFiles};
+use crate::model::Model;
 use crate::provenance::{Grade, Provenance};
-use crate::vehicle::{Shape, Vehicle};
 use roxmltree::Document;
 use std::ops::Range;
 use std::sync::Arc;
 use wrasse_document::{Complaint, Source};
-use wrasse_dynamics::Frame;
-use wrasse_hardware::Sensors;
 
 const ROBOT: Kind = Kind {
     tag: "robot",
@@ -36,11 +31,14 @@ const ROBOT: Kind = Kind {
 /// What to do with a xacro file.
 const EXPAND_XACRO: &str = "expand it first: `xacro FILE.xacro > vehicle.urdf`";
 
-/// The vehicle that a URDF file describes.
+/// The source of all numbers of a URDF, which has no place for one.
+pub(crate) const NO_PROVENANCE: &str = "URDF without provenance";
+
+/// What a URDF file says.
 ///
 /// # Errors
-/// All complaints at once, if it cannot be read or is not physically possible.
-pub(crate) fn read_urdf(source: &Arc<Source>) -> Result<Vehicle, Vec<Complaint>> {
+/// All complaints at once, if it is no URDF.
+pub(crate) fn read_urdf(source: &Arc<Source>) -> Result<Model, Vec<Complaint>> {
     let found = Findings::new(source);
     let document = match Document::parse(&source.text) {
         Ok(document) => document,
@@ -53,51 +51,20 @@ pub(crate) fn read_urdf(source: &Arc<Source>) -> Result<Vehicle, Vec<Complaint>>
     let (mut links, outlines) = reading.links(&robot);
     let joints: Vec<_> = robot.children("joint").map(|joint| reading.joint(joint)).collect();
     let joints = reading.float_the_base(&mut links, joints);
-    let mut found = reading.into_findings();
-    let assembled = match assemble(source, &links, &joints) {
-        Ok(mut assembled) => {
-            found.take(std::mem::take(&mut assembled.warnings));
-            assembled
-        }
-        Err(complaints) => {
-            found.take(complaints);
-            return Err(found.into_complaints());
-        }
-    };
-    if !found.without_error() {
-        return Err(found.into_complaints());
-    }
     let name = name.map_or(String::new(), |name| name.text.to_owned());
-    Ok(vehicle(name, assembled, &outlines, found))
-}
-
-fn vehicle(name: String, from: AssembledRobot, outlines: &[Outline], found: Findings) -> Vehicle {
-    let on_body = |outline: &Outline| {
-        let link = from.frames.iter().find(|f| f.name == outline.link)?;
-        let frame = Frame { body: link.frame.body, X_BF: link.frame.X_BF * outline.X_LF };
-        Some(Shape { link: outline.link.clone(), frame, kind: outline.kind })
+    let provenance =
+        Provenance { of: "everything".into(), grade: Grade::Assumed, source: NO_PROVENANCE.into() };
+    let assembly = Assembly {
+        files: SourceFiles::of(source),
+        links,
+        joints,
+        outlines,
+        provenance: vec![provenance],
+        ..Assembly::default()
     };
-    Vehicle {
-        text: String::new(),
-        summary: format!("{name}, from a URDF file"),
-        name,
-        shapes: outlines.iter().filter_map(on_body).collect(),
-        robot: from.robot,
-        joint_names: from.joint_names,
-        limits: from.limits,
-        frames: from.frames,
-        tools: Vec::new(),
-        postures: Vec::new(),
-        attitude_actuator: None,
-        equipment: Equipment::default(),
-        sensors: Sensors::default(),
-        provenance: vec![Provenance {
-            of: "everything".into(),
-            grade: Grade::Assumed,
-            source: "URDF without provenance".into(),
-        }],
-        remarks: found.into_complaints(),
-    }
+    let found = reading.into_findings().into_complaints();
+    let summary = format!("{name}, from a URDF file");
+    Ok(Model { found, ..Model::bare(name, summary, assembly) })
 }
 
 impl Reading<'_> {
