@@ -11,6 +11,8 @@ mod eval_question;
 mod hardware;
 mod input;
 mod interrupt;
+mod new;
+mod new_file;
 mod progress;
 mod results;
 mod run;
@@ -43,6 +45,7 @@ enum Command {
     Hardware(hardware::Hardware),
     Eval(eval::Eval),
     Schema(schema::Schema),
+    New(new::New),
 }
 
 /// Stack of the thread that does the work (bytes): planning keeps the matrices of many joints by value,
@@ -79,6 +82,7 @@ fn go(command: &Command) -> ExitCode {
         Command::Hardware(hardware) => hardware.go(),
         Command::Eval(eval) => eval.go(),
         Command::Schema(schema) => Ok(schema.go()),
+        Command::New(new) => new.go(),
     };
     done.unwrap_or_else(|failure| failure.tell())
 }
