@@ -5,6 +5,7 @@
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
 mod check;
+mod completions;
 mod eval;
 mod eval_answer;
 mod eval_question;
@@ -46,6 +47,8 @@ enum Command {
     Eval(eval::Eval),
     Schema(schema::Schema),
     New(new::New),
+    Completions(completions::Completions),
+    Man(completions::Man),
 }
 
 /// Stack of the thread that does the work (bytes): planning keeps the matrices of many joints by value,
@@ -83,6 +86,8 @@ fn go(command: &Command) -> ExitCode {
         Command::Eval(eval) => eval.go(),
         Command::Schema(schema) => Ok(schema.go()),
         Command::New(new) => new.go(),
+        Command::Completions(completions) => Ok(completions.go()),
+        Command::Man(man) => man.go(),
     };
     done.unwrap_or_else(|failure| failure.tell())
 }
