@@ -18,6 +18,7 @@ mod progress;
 mod results;
 mod run;
 mod schema;
+mod settings;
 mod size;
 mod sweep;
 mod vehicles;

@@ -1,7 +1,7 @@
 //! `wrasse new`: a file to start from.
 
 use crate::YES;
-use crate::input::{Failure, say, text_of};
+use crate::input::{Failure, file_of, say};
 use crate::new_file::put_new;
 use clap::{Args, Subcommand};
 use std::path::{Path, PathBuf};
@@ -100,7 +100,7 @@ fn for_vehicle(text: &str, vehicle: &str, place: &OutFile) -> Result<String, Fai
     let path = Path::new(vehicle);
     let is_file = path.extension().is_some() || vehicle.contains(['/', '\\']);
     let (found, named) = if is_file {
-        (read_vehicle(path, text_of(path)?)?, seen_from_folder_of(&place.path(), path)?)
+        (read_vehicle(path, file_of(path)?.1)?, seen_from_folder_of(&place.path(), path)?)
     } else {
         (of_catalogue(vehicle)?, vehicle.to_owned())
     };
