@@ -12,6 +12,7 @@ mod eval_question;
 mod hardware;
 mod input;
 mod interrupt;
+mod keys;
 mod new;
 mod new_file;
 mod progress;

@@ -1,7 +1,8 @@
-//! `wrasse schema`: JSON Schemas for editors.
+//! `wrasse schema`: JSON Schemas for editors, and every key with its meaning.
 
 use crate::YES;
 use crate::input::say;
+use crate::keys::terminal;
 use clap::{Args, ValueEnum};
 use std::process::ExitCode;
 use wrasse_mission::mission_schema;
@@ -12,6 +13,9 @@ use wrasse_vehicle::vehicle_schema;
 pub(crate) struct Schema {
     /// Which format.
     format: Format,
+    /// Print every key with meaning, unit, default and allowed values, for a reader.
+    #[arg(long)]
+    keys: bool,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -28,7 +32,11 @@ impl Schema {
             Format::Vehicle => vehicle_schema(),
             Format::Mission => mission_schema(),
         };
-        say(&format!("{schema:#}"));
+        if self.keys {
+            say(&terminal(&schema));
+        } else {
+            say(&format!("{schema:#}"));
+        }
         YES
     }
 }
