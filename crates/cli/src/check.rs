@@ -18,6 +18,9 @@ use wrasse_vehicle::read_vehicle;
 /// vehicles. Lists of hardware and of sets of actuators are told from these, and read as TOML only.
 /// Exit code 0: usable (warnings may be printed); 2: not usable.
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  wrasse check my-servicer.toml reach.toml\n  wrasse new vehicle | wrasse check -"
+)]
 pub(crate) struct Check {
     /// The files; `-` is standard input.
     #[arg(required = true)]

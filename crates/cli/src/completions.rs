@@ -8,11 +8,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 /// Print what lets a shell complete the commands and options of wrasse.
-///
-/// Example, for bash:
-///   wrasse completions bash > ~/.local/share/bash-completion/completions/wrasse
 #[derive(Debug, Args)]
-#[command(verbatim_doc_comment)]
+#[command(after_help = "Example:
+  wrasse completions bash > ~/.local/share/bash-completion/completions/wrasse")]
 pub(crate) struct Completions {
     /// The shell.
     shell: Shell,
@@ -28,11 +26,8 @@ impl Completions {
 }
 
 /// Print the manual page, or write one for each command.
-///
-/// Example:
-///   wrasse man --out ~/.local/share/man/man1 && man wrasse-run
 #[derive(Debug, Args)]
-#[command(verbatim_doc_comment)]
+#[command(after_help = "Example:\n  wrasse man --out ~/.local/share/man/man1 && man wrasse-run")]
 pub(crate) struct Man {
     /// Write wrasse.1, wrasse-run.1 and so on into this folder, in place of those that are there.
     #[arg(long, value_name = "DIR")]

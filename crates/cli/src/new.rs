@@ -12,14 +12,14 @@ use wrasse_vehicle::{NoVehicle, Vehicle, find_vehicle, read_vehicle};
 const VEHICLE: &str = include_str!("starts/vehicle.toml");
 const MISSION: &str = include_str!("starts/mission.toml");
 
+const EXAMPLES: &str = "Examples:
+  wrasse new vehicle --out my-servicer.toml
+  wrasse new mission --vehicle my-servicer.toml --out reach.toml
+  wrasse run reach.toml";
+
 /// Print a commented vehicle or mission file to start from. It runs as it stands.
-///
-/// Example:
-///   wrasse new vehicle --out my-servicer.toml
-///   wrasse new mission --vehicle my-servicer.toml --out reach.toml
-///   wrasse run reach.toml
 #[derive(Debug, Args)]
-#[command(verbatim_doc_comment)]
+#[command(after_help = EXAMPLES)]
 pub(crate) struct New {
     #[command(subcommand)]
     what: What,
@@ -28,6 +28,7 @@ pub(crate) struct New {
 #[derive(Debug, Subcommand)]
 enum What {
     /// A servicer with one arm of three joints.
+    #[command(after_help = "Example:\n  wrasse new vehicle chaser --out chaser.toml")]
     Vehicle {
         /// Its name, in place of my-servicer.
         name: Option<String>,
@@ -35,6 +36,7 @@ enum What {
         place: OutFile,
     },
     /// An arm reaches sideways while the attitude of its base is controlled.
+    #[command(after_help = "Example:\n  wrasse new mission first --vehicle ssrms --out first.toml")]
     Mission {
         /// Its name, in place of my-mission.
         name: Option<String>,

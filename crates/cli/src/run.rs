@@ -19,6 +19,9 @@ use wrasse_rehearsal::{End, RunOptions};
 /// hold; 1: one does not, or the planning found that the path is infeasible; 2: bad input, or a
 /// number broke down.
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  wrasse run missions/atlas-reach.toml\n  wrasse run reach.toml --set control.feedforward=none --out out/without"
+)]
 pub(crate) struct Run {
     /// The mission file; `-` is standard input.
     mission: PathBuf,

@@ -8,8 +8,11 @@ use std::process::ExitCode;
 use wrasse_mission::mission_schema;
 use wrasse_vehicle::vehicle_schema;
 
-/// Print the JSON Schema of a file format, for completion in an editor.
+/// Print the keys of a file format: as JSON Schema for an editor, or in words.
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  wrasse schema mission > mission.schema.json\n  wrasse schema vehicle --keys | less"
+)]
 pub(crate) struct Schema {
     /// Which format.
     format: Format,

@@ -23,6 +23,7 @@ use wrasse_study::{Catalogue, size, study_in};
 /// Exit code 0: the study ran and its ledgers close (a study of which no set suffices is a result, not
 /// an error); 2: bad input, a ledger that stays open, or a number that broke down.
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  wrasse size missions/atlas-reach.toml --catalogue wheels,cmgs")]
 pub(crate) struct Size {
     /// The study, or a mission; `-` is standard input.
     study: PathBuf,

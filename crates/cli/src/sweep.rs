@@ -25,6 +25,9 @@ use wrasse_sweep::{OwnedFolder, SweepError, SweepOutcome, sweep};
 /// Exit code 0: the sweep was flown, and --pass-rate is reached if it was asked for; 1: it is not; 2: bad
 /// input.
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Example:\n  wrasse sweep missions/sweeps/module-reach.toml --samples 200 --pass-rate 0.95"
+)]
 pub(crate) struct Sweep {
     /// The mission file; `-` is standard input.
     mission: PathBuf,
