@@ -9,7 +9,7 @@ use serde_json::Value as Schema;
 /// once.
 pub(super) fn tables(schema: &Schema) -> Vec<KeyTable> {
     let mut found = Found { format: Format(schema), tables: vec![], named: vec![] };
-    found.table(schema, Path { text: String::new(), is_list: false }, meaning(schema));
+    found.table(schema, &Path { text: String::new(), is_list: false }, meaning(schema));
     found.tables
 }
 
@@ -46,7 +46,7 @@ struct Found<'s> {
 }
 
 impl<'s> Found<'s> {
-    fn table(&mut self, schema: &'s Schema, path: Path, about: String) {
+    fn table(&mut self, schema: &'s Schema, path: &Path, about: String) {
         let (mut rows, mut below) = (vec![], vec![]);
         let shapes = self.format.options(schema);
         let alternatives: Vec<&Schema> =
@@ -57,7 +57,7 @@ impl<'s> Found<'s> {
                 if rows.iter().any(|row: &KeyRow| row.key == *key) {
                     continue;
                 }
-                let (mut row, table) = self.row(shape, key, of_key, &path);
+                let (mut row, table) = self.row(shape, key, of_key, path);
                 if let Some((inner, place)) = table {
                     self.name_place(&mut row, inner, &place, &mut below);
                 }
@@ -66,14 +66,16 @@ impl<'s> Found<'s> {
         }
         let about = if alternatives.len() > 1 {
             // Of several shapes none is required.
-            rows.iter_mut().for_each(|row| row.default = Default::None);
+            for row in &mut rows {
+                row.default = Default::None;
+            }
             format!("{about}: the keys {}", keys_of_each(&alternatives))
         } else {
             about
         };
         self.tables.push(KeyTable { path: path.written(), meaning: about, rows });
         for (inner, place, about) in below {
-            self.table(inner, place, about);
+            self.table(inner, &place, about);
         }
     }
 

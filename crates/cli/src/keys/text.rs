@@ -1,8 +1,8 @@
 //! The tables of a format as text: for a terminal, and as a page of the book.
 
-#[cfg(test)]
-use super::KeyTable;
 use super::tables::tables;
+#[cfg(test)]
+use super::{KeyRow, KeyTable};
 use serde_json::Value as Schema;
 
 /// The columns of a terminal.
@@ -66,27 +66,25 @@ fn page(format: &str, schema: &Schema) -> String {
 
 #[cfg(test)]
 fn section(table: &KeyTable) -> String {
-    let cell = |text: &str| text.replace('|', "\\|");
-    let head = if table.path.is_empty() {
-        "The top of the file".into()
-    } else {
-        format!("`{}`", table.path)
+    let head = match &*table.path {
+        "" => "The top of the file".into(),
+        path => format!("`{path}`"),
     };
-    let mut text = format!("\n## {head}\n\n{}.\n\n", table.meaning);
-    text.push_str("| key | meaning | unit | value | default |\n|---|---|---|---|---|\n");
-    for row in &table.rows {
-        let default = match row.default.shown() {
-            "-" => String::new(),
-            "required" => "**required**".to_owned(),
-            value => format!("`{value}`"),
-        };
-        let (meaning, value) = (cell(&row.meaning), cell(&row.value));
-        text.push_str(&format!(
-            "| `{}` | {meaning} | {} | {value} | {default} |\n",
-            row.key, row.unit
-        ));
-    }
-    text
+    let rows: String = table.rows.iter().map(row_of).collect();
+    let about = &table.meaning;
+    let columns = "| key | meaning | unit | value | default |\n|---|---|---|---|---|\n";
+    format!("\n## {head}\n\n{about}.\n\n{columns}{rows}")
+}
+
+#[cfg(test)]
+fn row_of(row: &KeyRow) -> String {
+    let default = match row.default.shown() {
+        "-" => String::new(),
+        "required" => "**required**".to_owned(),
+        value => format!("`{value}`"),
+    };
+    let [meaning, value] = [&row.meaning, &row.value].map(|text| text.replace('|', "\\|"));
+    format!("| `{}` | {meaning} | {} | {value} | {default} |\n", row.key, row.unit)
 }
 
 #[cfg(test)]
