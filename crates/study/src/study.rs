@@ -3,7 +3,7 @@
 use crate::own_units::without_own_units;
 use crate::sets::{Catalogue, SetRow, as_fitted, fed, of_catalogue, shipped, with_sets};
 use crate::study_table::study_complaints;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use toml::Table;
 use wrasse_document::{Complaint, Document, at};
 use wrasse_mission::{Mission, mission_of};
@@ -38,27 +38,11 @@ pub(crate) struct Task {
 /// # Errors
 /// All complaints at once.
 pub fn read_study(path: impl Into<PathBuf>, text: &str) -> Result<Study, Vec<Complaint>> {
-    read_study_with(path, text, &[])
+    study_in(&Document::parse(path, text)?, &[])
 }
 
-/// The same, but that a mission without its own sets is weighed against all units of these kinds.
-///
-/// # Errors
-/// All complaints at once.
-pub fn read_study_with(
-    path: impl Into<PathBuf>,
-    text: &str,
-    catalogue: &[Catalogue],
-) -> Result<Study, Vec<Complaint>> {
-    read_at(&path.into(), text, catalogue)
-}
-
-/// The same, apart from what is generic, so that the callers do not compile it again.
-fn read_at(path: &Path, text: &str, catalogue: &[Catalogue]) -> Result<Study, Vec<Complaint>> {
-    study_in(&Document::parse(path, text)?, catalogue)
-}
-
-/// The same of a document: that of a file, or one that something was laid over.
+/// The same of a document: that of a file, or one that something was laid over. A mission without its own
+/// sets is weighed against all units of these kinds, if there are any.
 ///
 /// # Errors
 /// All complaints at once.
