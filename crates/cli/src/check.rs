@@ -1,12 +1,13 @@
 //! `wrasse check`: everything that is wrong with a file, and everything worth a second look.
 
-use crate::input::{complain, say, text_of};
+use crate::input::{STDIN, complain, file_of, say, tell};
+use crate::settings::Settings;
 use crate::{YES, bad};
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use wrasse_document::{Complaint, Document, visible};
-use wrasse_mission::read_mission;
+use wrasse_document::{Complaint, Document, Source, visible};
+use wrasse_mission::mission_of;
 use wrasse_rehearsal::sampled_loops;
 use wrasse_study::study_complaints;
 use wrasse_vehicle::read_vehicle;
@@ -17,25 +18,34 @@ use wrasse_vehicle::read_vehicle;
 /// vehicles. Lists of hardware and of sets of actuators are told from these, and read as TOML only.
 /// Exit code 0: usable (warnings may be printed); 2: not usable.
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  wrasse check my-servicer.toml reach.toml\n  wrasse new vehicle | wrasse check -"
+)]
 pub(crate) struct Check {
-    /// The files.
+    /// The files; `-` is standard input.
     #[arg(required = true)]
     files: Vec<PathBuf>,
+    #[command(flatten)]
+    settings: Settings,
 }
 
 impl Check {
     pub(crate) fn go(&self) -> ExitCode {
+        if self.files.iter().filter(|file| *file == Path::new(STDIN)).count() > 1 {
+            tell("error: standard input can be read once: `-` is given more than once");
+            return bad();
+        }
         let mut all_usable = true;
         for file in &self.files {
-            let text = match text_of(file) {
-                Ok(text) => text,
+            let (file, text) = match file_of(file) {
+                Ok(read) => read,
                 Err(failure) => {
                     failure.tell();
                     all_usable = false;
                     continue;
                 }
             };
-            let (complaints, what) = findings(file, text);
+            let (complaints, what) = self.findings(&file, text);
             if !complaints.is_empty() {
                 complain(&complaints);
             }
@@ -46,24 +56,39 @@ impl Check {
         }
         if all_usable { YES } else { bad() }
     }
+
+    /// Complaints about a file, and what it is if it can be used.
+    fn findings(&self, file: &Path, text: String) -> (Vec<Complaint>, Option<String>) {
+        if is_mission(file, &text) {
+            let document = Document::parse(file, text).and_then(|read| self.settings.over(read));
+            return document.map_or_else(|found| (found, None), |document| of_mission(&document));
+        }
+        if !self.settings.is_empty() {
+            let message = "a value can be set of a mission only, and this is none";
+            return (vec![Complaint::error(&Source::new(file, text), message)], None);
+        }
+        of_other(file, text)
+    }
 }
 
-/// Complaints about a file, and what it is if it can be used.
-fn findings(file: &PathBuf, text: String) -> (Vec<Complaint>, Option<String>) {
-    if is_mission(file, &text) {
-        let of_study = study_complaints(file, &text);
-        return match read_mission(file, text) {
-            Ok(mission) if of_study.is_empty() => {
-                let loops = sampled_loops(&mission.cases[0]);
-                let loops: Vec<_> = loops.iter().map(|l| format!("\n  {}", l.text())).collect();
-                let loops = loops.concat();
-                let what = format!("a mission of {} case(s)", mission.cases.len());
-                (mission.remarks, Some(format!("{what}; closed once a period:{loops}")))
-            }
-            Ok(mission) => ([of_study, mission.remarks].concat(), None),
-            Err(complaints) => ([complaints, of_study].concat(), None),
-        };
+/// Complaints about a mission, and what it is if it can be used.
+fn of_mission(document: &Document) -> (Vec<Complaint>, Option<String>) {
+    let of_study = study_complaints(document);
+    match mission_of(document) {
+        Ok(mission) if of_study.is_empty() => {
+            let loops = sampled_loops(&mission.cases[0]);
+            let loops: Vec<_> = loops.iter().map(|l| format!("\n  {}", l.text())).collect();
+            let loops = loops.concat();
+            let what = format!("a mission of {} case(s)", mission.cases.len());
+            (mission.remarks, Some(format!("{what}; closed once a period:{loops}")))
+        }
+        Ok(mission) => ([of_study, mission.remarks].concat(), None),
+        Err(complaints) => ([complaints, of_study].concat(), None),
     }
+}
+
+/// The same of a list of hardware or of sets, or of a vehicle.
+fn of_other(file: &Path, text: String) -> (Vec<Complaint>, Option<String>) {
     if let Some(what) = list(file, &text) {
         return match Document::parse(file, text) {
             Ok(_) => (vec![], Some(what)),
@@ -84,7 +109,7 @@ fn findings(file: &PathBuf, text: String) -> (Vec<Complaint>, Option<String>) {
 
 /// What a file is that has neither a name nor a body at its top level: tables of models, or sets of
 /// actuators; nothing for any other file.
-fn list(file: &std::path::Path, text: &str) -> Option<String> {
+fn list(file: &Path, text: &str) -> Option<String> {
     const MODELS: [&str; 5] =
         ["[[wheel]]", "[[cmg]]", "[[thruster]]", "[[rate_gyro]]", "[[star_tracker]]"];
     let lines =
@@ -109,12 +134,12 @@ fn list(file: &std::path::Path, text: &str) -> Option<String> {
     })
 }
 
-fn is_toml(file: &std::path::Path) -> bool {
+fn is_toml(file: &Path) -> bool {
     file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"))
 }
 
 /// A mission names its vehicle, at the top level of a TOML file.
-fn is_mission(file: &std::path::Path, text: &str) -> bool {
+fn is_mission(file: &Path, text: &str) -> bool {
     let top = text.lines().map(str::trim_start).take_while(|line| !line.starts_with('['));
     let names_vehicle = |line: &str| {
         line.strip_prefix("vehicle").is_some_and(|rest| rest.trim_start().starts_with('='))

@@ -1,7 +1,7 @@
 //! `wrasse convert`: a vehicle file of another format as a TOML one.
 
 use crate::YES;
-use crate::input::{Failure, complain, say, text_of};
+use crate::input::{Failure, complain, file_of, say};
 use clap::Args;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -14,7 +14,7 @@ use wrasse_vehicle::{ConvertOptions, convert_to_toml};
 /// take it into a vehicle file by an [[include]] instead.
 #[derive(Debug, Args)]
 pub(crate) struct Convert {
-    /// The file.
+    /// The file; `-` is standard input.
     file: PathBuf,
     /// Fix the joints of this name, at zero or the end of their travel nearest to it; * stands for any
     /// characters. May be given several times.
@@ -31,7 +31,8 @@ impl Convert {
             fix: self.fix.clone(),
             accept_nonphysical: self.accept_nonphysical.clone(),
         };
-        let (text, remarks) = convert_to_toml(&self.file, text_of(&self.file)?, &options)?;
+        let (file, text) = file_of(&self.file)?;
+        let (text, remarks) = convert_to_toml(file, text, &options)?;
         if !remarks.is_empty() {
             complain(&remarks);
         }

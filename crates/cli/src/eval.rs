@@ -15,10 +15,11 @@ use wrasse_vehicle::{NoVehicle, find_vehicle};
 /// The states are JSON: {"frame": NAME, "states": [STATE, …]}. The answer goes to standard output.
 /// The book's page "Evaluating from other programs" has the whole contract.
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  wrasse eval ssrms --states states.json")]
 pub(crate) struct Eval {
     /// A vehicle of the catalogue, or a vehicle file.
     vehicle: String,
-    /// The states, as a JSON file.
+    /// The states, as a JSON file; `-` is standard input.
     #[arg(long, value_name = "FILE")]
     states: PathBuf,
 }

@@ -18,7 +18,7 @@ use wrasse_vehicle::{Grade, HardwareEntry, Provenance, hardware};
 ///
 /// A number that stands beside `model` replaces that of the catalogue.
 #[derive(Debug, Args)]
-#[command(verbatim_doc_comment)]
+#[command(verbatim_doc_comment, after_help = "Example:\n  wrasse hardware honeywell-hr16-100")]
 pub(crate) struct Hardware {
     /// Show all numbers of one of them, and where each comes from.
     #[arg(value_name = "NAME")]

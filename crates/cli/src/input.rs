@@ -3,10 +3,10 @@
 use crate::bad;
 use serde_json::Value;
 use std::io::{IsTerminal, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use wrasse_document::{
-    Complaint, MOST_BYTES, Unreadable, read_text, render, visible_json, visible_lines,
+    Complaint, MOST_BYTES, Unreadable, read_stream, read_text, render, visible_json, visible_lines,
 };
 
 /// Why a command cannot go on.
@@ -35,21 +35,37 @@ impl From<Vec<Complaint>> for Failure {
     }
 }
 
-/// The text of a vehicle or mission file.
-pub(crate) fn text_of(path: &Path) -> Result<String, Failure> {
-    text_up_to(path, MOST_BYTES)
+/// A vehicle or mission file, and its text. What comes from standard input, `-`, has a name that says its
+/// format: XML begins with a pointed bracket. Its folder is the one that the user is in.
+pub(crate) fn file_of(path: &Path) -> Result<(PathBuf, String), Failure> {
+    let text = text_up_to(path, MOST_BYTES)?;
+    if path != Path::new(STDIN) {
+        return Ok((path.to_owned(), text));
+    }
+    let is_xml = text.trim_start_matches(['\u{feff}', ' ', '\t', '\r', '\n']).starts_with('<');
+    let name = if is_xml { "stdin.xml" } else { "stdin.toml" };
+    Ok((name.into(), text))
 }
 
-/// The same, of a file of at most so many bytes.
+/// Stands for standard input.
+pub(crate) const STDIN: &str = "-";
+
+/// The text of a file of at most so many bytes, or of standard input.
 pub(crate) fn text_up_to(path: &Path, most: u64) -> Result<String, Failure> {
+    let name = if path == Path::new(STDIN) { Path::new("standard input") } else { path };
     let sentence = |why| match why {
         Unreadable::System(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            format!("there is no file {}", path.display())
+            format!("there is no file {}", name.display())
         }
-        Unreadable::NotText { .. } => format!("{} is not UTF-8 text", path.display()),
-        why => format!("{} cannot be read: {why}", path.display()),
+        Unreadable::NotText { .. } => format!("{} is not UTF-8 text", name.display()),
+        why => format!("{} cannot be read: {why}", name.display()),
     };
-    read_text(path, most).map_err(|why| Failure::Sentence(sentence(why)))
+    let read = if path == Path::new(STDIN) {
+        read_stream(std::io::stdin().lock(), most)
+    } else {
+        read_text(path, most)
+    };
+    read.map_err(|why| Failure::Sentence(sentence(why)))
 }
 
 /// Print complaints to standard error, in colour on a terminal.

@@ -1,14 +1,15 @@
 //! `wrasse run`: a mission, from its file to its verdict.
 
-use crate::input::{Failure, complain, text_of};
+use crate::input::{Failure, complain};
 use crate::interrupt::{at_interrupt, nothing_kept};
 use crate::progress::Bar;
 use crate::results::{hand_over, provenance, results_folder};
+use crate::settings::Settings;
 use crate::{YES, bad, no};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use wrasse_mission::{Mission, read_mission, run};
+use wrasse_mission::{Mission, run};
 use wrasse_record::{summary_json, verdict_table, write_results};
 use wrasse_rehearsal::{End, RunOptions};
 
@@ -18,9 +19,14 @@ use wrasse_rehearsal::{End, RunOptions};
 /// hold; 1: one does not, or the planning found that the path is infeasible; 2: bad input, or a
 /// number broke down.
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Examples:\n  wrasse run missions/atlas-reach.toml\n  wrasse run reach.toml --set control.feedforward=none --out out/without"
+)]
 pub(crate) struct Run {
-    /// The mission file.
+    /// The mission file; `-` is standard input.
     mission: PathBuf,
+    #[command(flatten)]
+    settings: Settings,
     /// Folder for the results, in place of out/NAME.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -44,7 +50,7 @@ pub(crate) struct Run {
 
 impl Run {
     pub(crate) fn go(&self) -> Result<ExitCode, Failure> {
-        let mut mission = mission_of(&self.mission)?;
+        let mut mission = mission_of(&self.mission, &self.settings)?;
         let mut name = mission.name.clone();
         if let Some(sample) = self.sample {
             name = format!("{name}-sample-{sample}");
@@ -67,9 +73,9 @@ impl Run {
     }
 }
 
-/// The mission of a file, after its remarks.
-pub(crate) fn mission_of(path: &Path) -> Result<Mission, Failure> {
-    let mission = read_mission(path, text_of(path)?)?;
+/// The mission of a file and what is set, after its remarks.
+pub(crate) fn mission_of(path: &Path, settings: &Settings) -> Result<Mission, Failure> {
+    let mission = wrasse_mission::mission_of(&settings.document(path)?)?;
     if !mission.remarks.is_empty() {
         complain(&mission.remarks);
     }

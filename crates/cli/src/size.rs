@@ -1,16 +1,17 @@
 //! `wrasse size`: what a task asks of the base, and which actuators can give it.
 
-use crate::input::{Failure, text_of};
+use crate::input::Failure;
 use crate::interrupt::{at_interrupt, nothing_kept};
 use crate::progress::Bar;
 use crate::results::{hand_over, provenance, results_folder};
+use crate::settings::Settings;
 use crate::{YES, bad, threads};
 use clap::{Args, ValueEnum};
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use wrasse_record::{study_json, study_table, write_study};
-use wrasse_study::{Catalogue, read_study_with, size};
+use wrasse_study::{Catalogue, size, study_in};
 
 /// Size the actuators of a base: what a task asks, which sets can give it, how much slower it must be.
 ///
@@ -22,9 +23,12 @@ use wrasse_study::{Catalogue, read_study_with, size};
 /// Exit code 0: the study ran and its ledgers close (a study of which no set suffices is a result, not
 /// an error); 2: bad input, a ledger that stays open, or a number that broke down.
 #[derive(Debug, Args)]
+#[command(after_help = "Example:\n  wrasse size missions/atlas-reach.toml --catalogue wheels,cmgs")]
 pub(crate) struct Size {
-    /// The study, or a mission.
+    /// The study, or a mission; `-` is standard input.
     study: PathBuf,
+    #[command(flatten)]
+    settings: Settings,
     /// Weigh every unit of this kind that `wrasse hardware` lists, in a standard arrangement: four
     /// wheels, four CMGs in a pyramid, 24 thrusters at the corners of the bus.
     #[arg(long, value_name = "KIND", value_delimiter = ',')]
@@ -70,7 +74,7 @@ impl Size {
                 catalogue.push(kind);
             }
         }
-        let study = read_study_with(&self.study, &text_of(&self.study)?, &catalogue)?;
+        let study = study_in(&self.settings.document(&self.study)?, &catalogue)?;
         // The report of a run of the same file stays what it is.
         let folder = results_folder(self.out.as_deref(), &format!("{}-size", study.name()))?;
         at_interrupt(nothing_kept);

@@ -5,6 +5,7 @@ use crate::interrupt::at_interrupt;
 use crate::progress::Bar;
 use crate::results::{hand_over, provenance, results_folder};
 use crate::run::mission_of;
+use crate::settings::Settings;
 use crate::{YES, no, threads};
 use clap::{Args, value_parser};
 use std::num::NonZeroUsize;
@@ -24,9 +25,14 @@ use wrasse_sweep::{OwnedFolder, SweepError, SweepOutcome, sweep};
 /// Exit code 0: the sweep was flown, and --pass-rate is reached if it was asked for; 1: it is not; 2: bad
 /// input.
 #[derive(Debug, Args)]
+#[command(
+    after_help = "Example:\n  wrasse sweep missions/sweeps/module-reach.toml --samples 200 --pass-rate 0.95"
+)]
 pub(crate) struct Sweep {
-    /// The mission file.
+    /// The mission file; `-` is standard input.
     mission: PathBuf,
+    #[command(flatten)]
+    settings: Settings,
     /// Samples of each case.
     #[arg(long, value_name = "N", default_value = "1000", value_parser = value_parser!(u64).range(1..=MOST))]
     samples: u64,
@@ -63,7 +69,7 @@ fn share(text: &str) -> Result<f64, String> {
 
 impl Sweep {
     pub(crate) fn go(&self) -> Result<ExitCode, Failure> {
-        let mission = mission_of(&self.mission)?;
+        let mission = mission_of(&self.mission, &self.settings)?;
         let folder = results_folder(self.out.as_deref(), &format!("{}-sweep", mission.name))?;
         let asked = wrasse_sweep::Sweep {
             mission: &mission,

@@ -133,3 +133,16 @@ fn the_schemas_refuse_a_misspelt_key_a_wrong_type_and_a_missing_name() {
     bad["control"]["arm_law"] = "terestrial".into();
     assert!(fits(&schema, &schema, &bad, "").is_err());
 }
+
+#[test]
+fn the_keys_of_a_format_are_printed_with_unit_default_and_words() {
+    let said = Folder::new().wrasse(&["schema", "mission", "--keys"]);
+    assert_eq!((said.code, said.err.as_str()), (0, ""));
+    let control = said.out.split("\n[control]\n").nth(1).unwrap().split("\n[").next().unwrap();
+    assert!(control.contains("\n  rate_hz, Hz, default 100\n      Control periods per second\n"));
+    assert!(
+        control.contains("= \"terrestrial\": Bolted to the ground; \"attitude-held\""),
+        "{control}"
+    );
+    assert!(said.out.contains("\n  mass_kg, kg, required\n"), "{}", said.out);
+}

@@ -11,6 +11,9 @@ pub struct Source {
     pub path: PathBuf,
     /// The whole text.
     pub text: String,
+    /// Texts that were given beside the file and laid over it. A byte range behind the text lies in one of
+    /// them; [`Complaint::placed`] finds which.
+    pub(crate) beside: Vec<Arc<Self>>,
 }
 
 /// How bad it is.
@@ -44,7 +47,12 @@ pub struct Complaint {
 impl Source {
     /// A file's text, to be shared by all complaints about it.
     pub fn new(path: impl Into<PathBuf>, text: impl Into<String>) -> Arc<Self> {
-        Arc::new(Self { path: path.into(), text: text.into() })
+        Arc::new(Self { path: path.into(), text: text.into(), beside: vec![] })
+    }
+    /// Where a text beside the file begins, behind the file's own: one byte lies between any two.
+    pub(crate) fn begin_beside(&self, number: usize) -> usize {
+        let before = self.beside.iter().take(number).map(|source| source.text.len() + 1);
+        self.text.len() + 1 + before.sum::<usize>()
     }
 }
 
@@ -78,6 +86,20 @@ impl Complaint {
         self.span = Some(span);
         self.label = label.into();
         self
+    }
+    /// The same, about the text in which its place lies: that of the file, or one that was laid over it.
+    #[must_use]
+    pub fn placed(&self) -> Self {
+        let source = &self.source;
+        let Some(span) = &self.span else { return self.clone() };
+        let within = (0..source.beside.len()).rev().find(|k| span.start >= source.begin_beside(*k));
+        let Some(number) = within else { return self.clone() };
+        let begin = source.begin_beside(number);
+        Self {
+            source: Arc::clone(&source.beside[number]),
+            span: Some(span.start - begin..span.end.max(begin) - begin),
+            ..self.clone()
+        }
     }
     /// The same, with how to mend it.
     #[must_use]

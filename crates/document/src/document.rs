@@ -116,6 +116,10 @@ impl Document {
         T::deserialize(Root(&self.root))
             .map_err(|misfit| vec![Complaint::error(&self.source, misfit.to_string())])
     }
+    /// Take another source of the same text.
+    pub(crate) fn set_source(&mut self, source: Source) {
+        self.source = Arc::new(source);
+    }
     pub(crate) fn root(&self) -> &Table {
         &self.root
     }

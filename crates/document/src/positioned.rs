@@ -64,6 +64,48 @@ pub(crate) fn parse(source: &Arc<Source>) -> Result<Table, Vec<Complaint>> {
     Err(complaints)
 }
 
+/// The value that a part of a text is.
+pub(crate) fn value_of(source: &Arc<Source>, span: Range<usize>) -> Result<Positioned, Complaint> {
+    let begin = span.start;
+    let value = DeValue::parse(&source.text[span]).map_err(|error| {
+        let at = error.span().map_or(0..0, |at| at.start + begin..at.end + begin);
+        Complaint::error(source, format!("not TOML: {}", error.message()))
+            .at(at, "here")
+            .with_help("a number stands alone: its key says the unit; a text may stand in quotes")
+    })?;
+    let mut complaints = vec![];
+    let mut value = positioned(source, &value, &mut complaints);
+    value.shift(begin);
+    match complaints.pop() {
+        None => Ok(value),
+        Some(mut complaint) => {
+            complaint.span = complaint.span.map(|at| at.start + begin..at.end + begin);
+            Err(complaint)
+        }
+    }
+}
+
+impl Positioned {
+    /// A string that stands without quotes.
+    pub(crate) fn string(text: &str, span: Range<usize>) -> Self {
+        Self { span, value: Value::String(text.to_owned()) }
+    }
+
+    /// Let it and all in it stand so many bytes farther on.
+    pub(crate) fn shift(&mut self, by: usize) {
+        let farther = |span: &mut Range<usize>| *span = span.start + by..span.end + by;
+        farther(&mut self.span);
+        match &mut self.value {
+            Value::Array(items) => items.iter_mut().for_each(|item| item.shift(by)),
+            Value::Table(table) => table.values_mut().for_each(|entry| {
+                farther(&mut entry.key_span);
+                entry.item.shift(by);
+            }),
+            _ => {}
+        }
+    }
+}
+
 /// One complaint for each line: what follows on the same line follows from the first.
 fn syntax_complaints(source: &Arc<Source>, errors: &[toml::de::Error]) -> Vec<Complaint> {
     let lines = Lines::of(&source.text);

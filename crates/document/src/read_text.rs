@@ -66,8 +66,16 @@ pub fn read_text(path: &Path, most: u64) -> Result<String, Unreadable> {
     }
     let file = File::open(path).map_err(Unreadable::System)?;
     // A file may grow while it is read, and some say nothing of their length.
+    read_stream(file, most)
+}
+
+/// The text of a stream of at most `most` bytes, read to its end.
+///
+/// # Errors
+/// What is too large, or is not text.
+pub fn read_stream(stream: impl Read, most: u64) -> Result<String, Unreadable> {
     let mut bytes = vec![];
-    file.take(most + 1).read_to_end(&mut bytes).map_err(Unreadable::System)?;
+    stream.take(most + 1).read_to_end(&mut bytes).map_err(Unreadable::System)?;
     if bytes.len() as u64 > most {
         return Err(Unreadable::Large { most });
     }

@@ -18,10 +18,11 @@ pub fn render(complaints: &[Complaint], colour: bool) -> String {
     if complaints.is_empty() {
         return String::new();
     }
+    let complaints: Vec<Complaint> = complaints.iter().map(Complaint::placed).collect();
     let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
     let mut files: Vec<(&Arc<Source>, Lines)> = vec![];
     let mut text = String::new();
-    for complaint in in_order(complaints).into_iter().take(MOST) {
+    for complaint in in_order(&complaints).into_iter().take(MOST) {
         let known = files.iter().position(|(file, _)| same(file, &complaint.source));
         let file = known.unwrap_or_else(|| {
             files.push((&complaint.source, Lines::of(&complaint.source.text)));
@@ -35,7 +36,7 @@ pub fn render(complaints: &[Complaint], colour: bool) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "the first {MOST} are shown, {rest} more are not");
     }
-    text.push_str(&count(complaints));
+    text.push_str(&count(&complaints));
     text
 }
 

@@ -228,7 +228,12 @@ impl<'a> Walk<'a> {
         let formerly = |k: &&str| was_called(&properties[*k], key);
         let renamed = free.clone().find(formerly);
         let meant = renamed.or_else(|| closest(key, free));
-        let help = match meant {
+        let span = table[key].key_span.clone();
+        // A value that is laid over a file mostly means a key that the file has.
+        let all = properties.keys().map(String::as_str);
+        let is_beside = span.start > self.source.text.len();
+        let near = meant.or_else(|| closest(key, all).filter(|_| is_beside));
+        let help = match near {
             Some(meant) if renamed.is_some() => {
                 format!("`{key}` was renamed: write `{meant}`")
             }
@@ -242,7 +247,6 @@ impl<'a> Walk<'a> {
             ),
         };
         let message = format!("unknown key `{key}` in {name}");
-        let span = table[key].key_span.clone();
         if let Some(meant) = meant {
             self.repairs.rename(&span, meant);
         }

@@ -46,15 +46,18 @@ fn add(settings: &mut Vec<Setting>, document: &Document, key: String, value: &Va
         Value::Array(items) if items.iter().any(Value::is_object) => items.len().to_string(),
         other => other.to_string(),
     };
-    let origin = if is_stated(document, &key) { "mission file" } else { "default" };
+    let origin = origin(document, &key);
     settings.push(Setting { key, value, origin });
 }
 
-fn is_stated(document: &Document, key: &str) -> bool {
+fn origin(document: &Document, key: &str) -> &'static str {
     let path: Vec<Step<'_>> = key.split('.').map(Step::Key).collect();
-    path.split_last().is_some_and(
-        |(last, above)| matches!(last, Step::Key(last) if document.keys(above).contains(last)),
-    )
+    match path.split_last() {
+        Some((Step::Key(last), above)) if document.keys(above).contains(last) => {
+            if document.is_set(&path) { "--set" } else { "mission file" }
+        }
+        _ => "default",
+    }
 }
 
 /// Whether a flight of this case reads a setting.

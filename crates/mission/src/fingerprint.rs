@@ -7,7 +7,7 @@ use wrasse_document::Document;
 use wrasse_vehicle::{Vehicle, hardware_texts};
 
 /// Keys of a file that change nothing of what is flown.
-const WORDS: [&str; 3] = ["name", "summary", "output"];
+pub(crate) const WORDS: [&str; 3] = ["name", "summary", "output"];
 
 impl Mission {
     /// SHA-256 of the canonical documents of mission, vehicles and hardware catalogue, in hexadecimal. Names,
@@ -18,7 +18,7 @@ impl Mission {
             all.update(text.as_bytes());
             all.update([0]);
         };
-        add(&canonical(&self.text));
+        add(&self.canonical);
         let mut seen: Vec<&str> = vec![];
         for vehicle in self.cases.iter().map(|case| -> &Vehicle { &case.vehicle }) {
             if !seen.contains(&vehicle.text.as_str()) {

@@ -10,6 +10,7 @@ mod mission;
 mod outcome;
 mod read_mission;
 mod reading;
+mod replaced_settings;
 mod run;
 mod sampling;
 mod toml;

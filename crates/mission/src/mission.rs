@@ -15,6 +15,10 @@ pub struct Mission {
     pub file: String,
     /// Its text.
     pub text: String,
+    /// Values that were laid over it, as the command line gave them.
+    pub settings: Vec<String>,
+    /// The document with them in its one form, without the keys that change nothing of what is flown.
+    pub(crate) canonical: String,
     /// Seed of everything random.
     pub seed: u64,
     /// What `wrasse size` makes of the cases.

@@ -15,6 +15,9 @@ pub struct Outcome {
     /// The whole text of the mission file.
     #[serde(skip)]
     pub mission_text: String,
+    /// Values that the command line laid over it.
+    #[serde(skip)]
+    pub settings: Vec<String>,
     /// wrasse's version.
     pub version: String,
     /// Seed of everything random.

@@ -3,8 +3,10 @@
 use crate::as_flown::as_flown;
 use crate::check_loops::check_loops;
 use crate::dispersible::Nominal;
+use crate::fingerprint::WORDS;
 use crate::mission::{Mission, Study};
 use crate::reading::Reading;
+use crate::replaced_settings::replaced_settings;
 use crate::sampling::{Sampling, check_sampling};
 use crate::toml::MissionFile;
 use crate::toml::actuators::{actuation, doubt_idle_units, equipment};
@@ -71,6 +73,7 @@ pub fn mission_of(document: &Document) -> Result<Mission, Vec<Complaint>> {
             Err(found) => complaints.extend(found),
         }
     }
+    complaints.extend(replaced_settings(document));
     // What is wrong with the common part is wrong in every case: say it once.
     let mut said = BTreeSet::new();
     let mut once = document.beside(part.complaints, complaints);
@@ -87,6 +90,8 @@ pub fn mission_of(document: &Document) -> Result<Mission, Vec<Complaint>> {
         summary: file.summary,
         file: source.path.display().to_string(),
         text: source.text.clone(),
+        settings: document.settings(),
+        canonical: document.canonical(&WORDS),
         seed: file.seed,
         study: file.study.as_ref().map(Study::of),
         remarks: once,

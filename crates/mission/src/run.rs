@@ -37,6 +37,7 @@ pub fn run(
         summary: mission.summary.clone(),
         mission_file: mission.file.clone(),
         mission_text: mission.text.clone(),
+        settings: mission.settings.clone(),
         version: env!("CARGO_PKG_VERSION").into(),
         seed: mission.seed,
         vehicle: vehicle_card(mission),

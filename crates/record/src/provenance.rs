@@ -15,6 +15,8 @@ pub struct Provenance {
     pub command_line: Vec<String>,
     /// The mission file.
     pub mission: FileRecord,
+    /// Values that the command line laid over the mission file, as they were given.
+    pub set: Vec<String>,
     /// The vehicle files of its cases, each once.
     pub vehicles: Vec<FileRecord>,
 }
@@ -50,6 +52,7 @@ impl Provenance {
             commit: commit.into(),
             command_line,
             mission: FileRecord::of(&mission.file, &mission.text),
+            set: mission.settings.clone(),
             vehicles,
         }
     }

@@ -120,6 +120,7 @@ fn sample() -> StudyOutcome {
         summary: "A study <for> a test.".into(),
         file: "sample.toml".into(),
         text: "name = \"sample\"".into(),
+        settings: vec![],
         version: "0.0.0".into(),
         seed: 1,
         claim: "CMGs are needed.".into(),

@@ -30,5 +30,5 @@ pub use outcome::{
 };
 pub use sets::Catalogue;
 pub use size::size;
-pub use study::{Study, read_study, read_study_with};
+pub use study::{Study, read_study, study_in};
 pub use study_table::study_complaints;

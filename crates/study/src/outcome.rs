@@ -20,6 +20,9 @@ pub struct StudyOutcome {
     /// The whole text of the file.
     #[serde(skip)]
     pub text: String,
+    /// Values that the command line laid over it.
+    #[serde(skip)]
+    pub settings: Vec<String>,
     /// wrasse's version.
     pub version: String,
     /// Seed of everything random.

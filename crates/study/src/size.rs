@@ -41,6 +41,7 @@ pub fn size(study: &Study, threads: usize, progress: &mut dyn FnMut(Progress<'_>
         summary: mission.summary.clone(),
         file: mission.file.clone(),
         text: mission.text.clone(),
+        settings: mission.settings.clone(),
         version: env!("CARGO_PKG_VERSION").into(),
         seed: mission.seed,
         mass_limit_kg: table.and_then(|table| table.mass_limit_kg),

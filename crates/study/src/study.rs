@@ -2,8 +2,8 @@
 
 use crate::own_units::without_own_units;
 use crate::sets::{Catalogue, SetRow, as_fitted, fed, of_catalogue, shipped, with_sets};
-use crate::study_table::complaints;
-use std::path::{Path, PathBuf};
+use crate::study_table::study_complaints;
+use std::path::PathBuf;
 use toml::Table;
 use wrasse_document::{Complaint, Document, at};
 use wrasse_mission::{Mission, mission_of};
@@ -38,39 +38,30 @@ pub(crate) struct Task {
 /// # Errors
 /// All complaints at once.
 pub fn read_study(path: impl Into<PathBuf>, text: &str) -> Result<Study, Vec<Complaint>> {
-    read_study_with(path, text, &[])
+    study_in(&Document::parse(path, text)?, &[])
 }
 
-/// The same, but that a mission without its own sets is weighed against all units of these kinds.
+/// The same of a document: that of a file, or one that something was laid over. A mission without its own
+/// sets is weighed against all units of these kinds, if there are any.
 ///
 /// # Errors
 /// All complaints at once.
-pub fn read_study_with(
-    path: impl Into<PathBuf>,
-    text: &str,
-    catalogue: &[Catalogue],
-) -> Result<Study, Vec<Complaint>> {
-    read_at(&path.into(), text, catalogue)
-}
-
-/// The same, apart from what is generic, so that the callers do not compile it again.
-fn read_at(path: &Path, text: &str, catalogue: &[Catalogue]) -> Result<Study, Vec<Complaint>> {
-    let document = Document::parse(path, text)?;
-    let wrong = complaints(&document);
-    let mission = match mission_of(&document) {
+pub fn study_in(document: &Document, catalogue: &[Catalogue]) -> Result<Study, Vec<Complaint>> {
+    let wrong = study_complaints(document);
+    let mission = match mission_of(document) {
         Ok(mission) if wrong.is_empty() => mission,
         Ok(_) => return Err(wrong),
         Err(found) => return Err([found, wrong].concat()),
     };
     if mission.study.is_none() {
-        return laid_over(&document, &mission, catalogue);
+        return laid_over(document, &mission, catalogue);
     }
     if !catalogue.is_empty() {
         let message = "the study brings its own sets".to_owned();
         let help = "leave out --catalogue, or the table [study] and the axis of its sets";
         return Err(vec![document.error(at!["study"], message, "here").with_help(help)]);
     }
-    Ok(beside_own_units(mission, &document))
+    Ok(beside_own_units(mission, document))
 }
 
 /// A mission with sets that it does not bring itself. Those that its vehicle cannot be flown with are

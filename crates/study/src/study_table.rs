@@ -2,7 +2,6 @@
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use std::path::PathBuf;
 use wrasse_document::{Complaint, Document, Step, at, closest};
 
 /// The axes of a file, as far as their names go, and its table `[study]`.
@@ -43,13 +42,9 @@ struct Row {
     name: String,
 }
 
-/// Complaints about the table `[study]` of a file, if it has one: what it names must be there.
-pub fn study_complaints(path: impl Into<PathBuf>, text: &str) -> Vec<Complaint> {
-    Document::parse(path, text).map_or_else(|_| vec![], |document| complaints(&document))
-}
-
-/// The same of a document. What is misshapen, whoever reads the mission complains of.
-pub(crate) fn complaints(document: &Document) -> Vec<Complaint> {
+/// Complaints about the table `[study]` of a document, if it has one: what it names must be there. What
+/// is misshapen, whoever reads the mission complains of.
+pub fn study_complaints(document: &Document) -> Vec<Complaint> {
     let Some(axes) = document.read_in_part::<Axes>().value else { return vec![] };
     let Some(table) = &axes.study else { return vec![] };
     let mut found = Found { document, axes: &axes, complaints: vec![] };

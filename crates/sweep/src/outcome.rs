@@ -18,6 +18,9 @@ pub struct SweepOutcome {
     /// The whole text of the mission file.
     #[serde(skip)]
     pub mission_text: String,
+    /// Values that the command line laid over it.
+    #[serde(skip)]
+    pub settings: Vec<String>,
     /// wrasse's version.
     pub version: String,
     /// Seed of all draws.

@@ -32,6 +32,7 @@ pub(crate) fn sum_up(asked: &Sweep<'_>, rows: Vec<Row>) -> SweepOutcome {
         summary: mission.summary.clone(),
         mission_file: mission.file.clone(),
         mission_text: mission.text.clone(),
+        settings: mission.settings.clone(),
         version: env!("CARGO_PKG_VERSION").into(),
         seed: asked.seed,
         samples: asked.samples,

@@ -101,6 +101,12 @@ fn version_and_seed(version: &str, seed: u64) -> (&'static str, String) {
     ("Version and seed", format!("wrasse {version}, seed {seed}"))
 }
 
+/// A file and what was laid over it.
+fn file_flown(file: &str, settings: &[String]) -> String {
+    let each = settings.iter().map(|setting| format!("--set {setting}"));
+    [file.to_owned()].into_iter().chain(each).collect::<Vec<_>>().join(", ")
+}
+
 /// The text of a file, folded.
 fn file_text(what: &str, text: &str) -> Markup {
     folded(&format!("Text of the {what}"), &html! { pre { (text) } })

@@ -7,8 +7,8 @@ use wrasse_study::{
 
 use super::Head::{Plain, Unit, Verdict};
 use super::{
-    Page, facts, figure, file_text, folded, said, section, table, verdict_mark, version_and_seed,
-    words,
+    Page, facts, figure, file_flown, file_text, folded, said, section, table, verdict_mark,
+    version_and_seed, words,
 };
 use crate::plot::envelope::{MomentumPath, envelope_figure};
 use crate::plot::study::{error_figure, saturation_figure, task_figures};
@@ -329,6 +329,9 @@ fn largest_demands(outcome: &StudyOutcome) -> Vec<&TaskOutcome> {
 }
 
 fn what_was_run(outcome: &StudyOutcome) -> Markup {
-    let rows = [("File", outcome.file.clone()), version_and_seed(&outcome.version, outcome.seed)];
+    let rows = [
+        ("File", file_flown(&outcome.file, &outcome.settings)),
+        version_and_seed(&outcome.version, outcome.seed),
+    ];
     html! { (facts(&rows)) (file_text("file", &outcome.text)) }
 }

@@ -4,7 +4,8 @@ use maud::{Markup, html};
 use wrasse_sweep::{CaseSweep, DrawnValue, PassRate, RequirementSweep, SweepOutcome};
 
 use super::{
-    Head, Page, facts, figure, file_text, folded, number, section, table, version_and_seed,
+    Head, Page, facts, figure, file_flown, file_text, folded, number, section, table,
+    version_and_seed,
 };
 use crate::plot::histogram::Histogram;
 use crate::wording::cases::name_of;
@@ -206,7 +207,7 @@ fn what_was_flown(outcome: &SweepOutcome) -> Markup {
     };
     let head = ["Drawn anew in each sample", "Files say", "Flown from", "to", "Unit"];
     let rows = [
-        ("Mission file", outcome.mission_file.clone()),
+        ("Mission file", file_flown(&outcome.mission_file, &outcome.settings)),
         version_and_seed(&outcome.version, outcome.seed),
     ];
     let content = html! {

@@ -63,6 +63,7 @@ pub(crate) fn hostile() -> Outcome {
         *text = bad.into();
     }
     outcome.vehicle.remarks = vec![bad.to_owned()];
+    outcome.settings = vec![bad.to_owned()];
     for row in &mut outcome.vehicle.provenance {
         *row = ProvenanceRow { of: bad.into(), grade: bad.into(), source: bad.into() };
     }
@@ -102,6 +103,7 @@ fn outcome(mission: &str, cases: Vec<CaseOutcome>) -> Outcome {
         mission_file: format!("missions/{mission}.toml"),
         mission_text:
             "vehicle = \"atlas-class\"\n\n[[phases]]\nname = \"reach\"\n# <20 s & calm>\n".into(),
+        settings: vec![],
         version: "0.1.0".into(),
         seed: 7,
         vehicle: VehicleCard {

@@ -35,7 +35,7 @@ pub(crate) struct HoldFile {
 }
 
 /// What of the tool must stay while the posture unloads the base.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum ToolTaskFile {
     /// Nothing: the force goes along with the tool.

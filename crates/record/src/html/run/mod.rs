@@ -5,8 +5,8 @@ use wrasse_mission::{Outcome, VehicleCard};
 use wrasse_rehearsal::CaseOutcome;
 
 use super::{
-    Head, Page, dotted, facts, figure, file_text, folded, json_in_script, section, table,
-    verdict_mark, version_and_seed, words,
+    Head, Page, dotted, facts, figure, file_flown, file_text, folded, json_in_script, section,
+    table, verdict_mark, version_and_seed, words,
 };
 use crate::wording::cases::case_name;
 use crate::wording::comparison::{Comparison, comparison, passed};
@@ -80,7 +80,7 @@ fn what_was_run(outcome: &Outcome) -> Markup {
         ("Vehicle", format!("{} \u{2013} {}", vehicle.name, vehicle.summary)),
         ("", numbers),
         ("Environment", outcome.environment.clone()),
-        ("Mission file", outcome.mission_file.clone()),
+        ("Mission file", file_flown(&outcome.mission_file, &outcome.settings)),
         version_and_seed(&outcome.version, outcome.seed),
     ];
     let content = html! {
