@@ -1,7 +1,7 @@
 //! A `<joint>`: how it moves, what it connects, what limits it.
 
-use super::element::{Element, Kind, Reading, Text, tag_at};
 use crate::assembly::AssemblyJoint;
+use crate::xml::{Element, Kind, Reading, Text, tag_at};
 use roxmltree::Node;
 use std::ops::Range;
 use wrasse_document::closest;
