@@ -1,9 +1,9 @@
-//! Vehicle files (TOML, URDF, Denavit-Hartenberg rows) to checked vehicles.
+//! Vehicle files (TOML, URDF, MJCF, Denavit-Hartenberg rows) to checked vehicles.
 //!
 //! Rooms, each of which uses those before it: `table` (what all tables of a file share), `check`
 //! (whether what a file says can be), `hardware` (the tables `[actuators]` and `[sensors]`, and the
-//! catalogue of units), `xml` (what all readers of XML share), `toml` and `urdf` (one file for each
-//! table or element).
+//! catalogue of units), `xml` (what all readers of XML share), `toml`, `urdf` and `mjcf` (one file
+//! for each table or element).
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
 mod assemble;
@@ -14,6 +14,7 @@ mod equipment;
 mod figures;
 mod findings;
 mod hardware;
+mod mjcf;
 mod provenance;
 mod read_vehicle;
 mod rotation;

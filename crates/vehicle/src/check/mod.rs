@@ -8,7 +8,7 @@ mod torque_cone;
 mod tree;
 
 pub use equipment_on_base::check_equipment;
-pub(crate) use physical::{check_joint, check_matter};
+pub(crate) use physical::{check_joint, check_matter, principal_moments};
 pub(crate) use plausible::{doubt_joint, doubt_mass, doubt_matter};
 pub(crate) use spanning::check_spanning;
 pub(crate) use tree::{Edge, Tree, tree};

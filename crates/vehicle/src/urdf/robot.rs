@@ -203,8 +203,8 @@ fn refuse_other_formats(
     } else if root.tag_name().name() != "robot" {
         let name = root.tag_name().name();
         let help = match name {
-            "sdf" => "this looks like SDF; convert it to URDF",
-            "mujoco" => "this looks like MJCF; convert it to URDF",
+            "sdf" => "this looks like SDF; convert it to URDF or MJCF",
+            "mujoco" => "this looks like MJCF: give the file the ending .mjcf",
             _ => "a URDF is one <robot name=\"…\"> with links and joints",
         };
         let message = format!("expected <robot>, found <{name}>");

@@ -27,23 +27,30 @@ impl Reading<'_> {
         }
     }
 
-    fn numbers(
+    /// As many numbers as expected, if they are there; nothing after a complaint.
+    pub(crate) fn numbers(
         &mut self,
         element: &Element<'_, '_>,
         name: &str,
         expected: usize,
     ) -> Option<Vec<f64>> {
         let value = element.attribute(name)?;
-        let words = words(value, self.text);
-        if words.len() != expected {
-            let wanted = if expected == 1 { "one number" } else { "three numbers" };
+        let count = words(value, self.text).len();
+        if count != expected {
+            let wanted = counted(expected);
             let what = format!("`{name}` of <{}>", element.tag);
-            let message = format!("{what} must be {wanted}, found {}", words.len());
+            let message = format!("{what} must be {wanted}, found {count}");
             let help = "separate numbers by spaces; the decimal sign is a point";
-            self.found.error(&value.at, message, wanted, help);
+            self.found.error(&value.at, message, &wanted, help);
             return None;
         }
-        let numbers: Vec<_> = words
+        self.list(element, name)
+    }
+
+    /// Any number of numbers, if they are there; nothing after a complaint.
+    pub(crate) fn list(&mut self, element: &Element<'_, '_>, name: &str) -> Option<Vec<f64>> {
+        let value = element.attribute(name)?;
+        let numbers: Vec<_> = words(value, self.text)
             .into_iter()
             .map(|(word, at)| {
                 let number = finite(word);
@@ -55,6 +62,15 @@ impl Reading<'_> {
             })
             .collect();
         numbers.into_iter().collect()
+    }
+}
+
+/// How many numbers are wanted.
+fn counted(expected: usize) -> String {
+    match expected {
+        1 => "one number".into(),
+        3 => "three numbers".into(),
+        _ => format!("{expected} numbers"),
     }
 }
 
