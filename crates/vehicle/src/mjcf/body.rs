@@ -14,7 +14,7 @@ use std::ops::Range;
 use wrasse_hardware::JointLimits;
 use wrasse_spatial::{Mat3, Pose, Vec3, vec3};
 
-const SITE: Kind = Kind {
+pub(super) const SITE: Kind = Kind {
     tag: "site",
     attributes: &["name", "class", "pos", "quat", "axisangle", "xyaxes", "zaxis", "euler"],
     children: &[],
@@ -30,8 +30,9 @@ pub(super) struct Bodies<'c, 'd, 't, 'r> {
     pub(super) links: Vec<Link>,
     pub(super) joints: Vec<AssemblyJoint>,
     pub(super) outlines: Vec<(String, Pose<f64>, ShapeKind)>,
-    /// Whether the file says that the base floats.
+    /// Whether the file says that the base floats, or that nothing lets it move.
     pub(super) is_free: bool,
+    pub(super) stands: bool,
     /// Joints with a rotor's inertia, and where the first says so.
     pub(super) armatures: Vec<(String, Range<usize>)>,
     sites: Vec<(Link, AssemblyJoint)>,
@@ -58,6 +59,7 @@ impl<'c, 'd, 't, 'r> Bodies<'c, 'd, 't, 'r> {
             joints: Vec::new(),
             outlines: Vec::new(),
             is_free: false,
+            stands: false,
             armatures: Vec::new(),
             sites: Vec::new(),
             bodies: 0,
@@ -85,9 +87,7 @@ impl<'c, 'd, 't, 'r> Bodies<'c, 'd, 't, 'r> {
     ) -> (String, Range<usize>, Vec<Placed<'d, 't>>) {
         let element = self.reading.open(placed.node, &BODY);
         self.bodies += 1;
-        let written = element.attribute("name");
-        let name = written.map_or(format!("body{}", self.bodies), |name| name.text.to_owned());
-        let at = written.map_or(&element.at, |name| &name.at).clone();
+        let (name, at) = self.name(&element);
         let contents =
             self.compiler.contents(&element, placed.node, placed.class, self.classes, self.reading);
         let matter = {
@@ -110,6 +110,22 @@ impl<'c, 'd, 't, 'r> Bodies<'c, 'd, 't, 'r> {
             self.site(site, &name, &at);
         }
         (name, at, contents.bodies)
+    }
+
+    /// The name of a body and where it stands; MuJoCo's number where there is none, or after a complaint
+    /// about one that is there already.
+    fn name(&mut self, element: &Element<'_, '_>) -> (String, Range<usize>) {
+        let numbered = format!("body{}", self.bodies);
+        let Some(written) = element.name() else { return (numbered, element.at.clone()) };
+        if let Some(other) = self.links.iter().find(|link| link.name == written.text) {
+            let line = self.reading.found.line(other.at.start);
+            let message =
+                format!("two bodies are called '{}'; the other is on line {line}", written.text);
+            let help = "give one of them another name";
+            self.reading.found.error(&written.at, message, "the second", help);
+            return (numbered, written.at.clone());
+        }
+        (written.text.to_owned(), written.at.clone())
     }
 
     fn styled(&mut self, placed: &Placed<'d, 't>, kind: &Kind) -> Styled<'c, 'd, 't> {
@@ -141,6 +157,7 @@ impl<'c, 'd, 't, 'r> Bodies<'c, 'd, 't, 'r> {
         joints: &[MjcfJoint],
     ) {
         self.links.push(Link { name: name.to_owned(), at: at.clone(), matter });
+        self.stands = joints.is_empty();
         for joint in joints {
             if joint.motion == Motion::Free {
                 self.is_free = true;
@@ -221,7 +238,7 @@ impl<'c, 'd, 't, 'r> Bodies<'c, 'd, 't, 'r> {
     fn site(&mut self, placed: &Placed<'d, 't>, body: &str, body_at: &Range<usize>) {
         let styled = self.styled(placed, &SITE);
         let X_BS = placed.X_BF * self.compiler.pose(&styled, self.reading);
-        let Some(name) = styled.own.attribute("name") else { return };
+        let Some(name) = styled.own.name() else { return };
         let link = Link { name: name.text.to_owned(), at: name.at.clone(), matter: None };
         let joint = fixed((name.text, &name.at), (body.to_owned(), body_at.clone()), X_BS);
         self.sites.push((link, joint));

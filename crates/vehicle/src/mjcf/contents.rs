@@ -107,7 +107,7 @@ fn children<'d, 't>(
     X_BF: Pose<f64>,
     class: Option<usize>,
 ) -> Vec<Placed<'d, 't>> {
-    let elements = node.children().filter(|child| child.is_element());
+    let elements = node.children().filter(Node::is_element);
     let mut placed: Vec<_> = elements.map(|node| Placed { node, X_BF, class }).collect();
     placed.reverse();
     placed

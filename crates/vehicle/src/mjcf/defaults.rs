@@ -7,11 +7,10 @@ use wrasse_document::closest;
 const DEFAULT: Kind = Kind {
     tag: "default",
     attributes: &["class"],
-    children: &["default", "joint", "geom", "equality"],
+    children: &["default", "joint", "geom", "site", "equality"],
     unused: &[
         "mesh",
         "material",
-        "site",
         "camera",
         "light",
         "pair",
@@ -48,6 +47,13 @@ pub(super) struct Classes<'d, 't>(Vec<Class<'d, 't>>);
 pub(super) struct Styled<'c, 'd, 't> {
     pub(super) own: Element<'d, 't>,
     defaults: Vec<&'c Element<'d, 't>>,
+}
+
+impl<'d> Element<'d, '_> {
+    /// Its name; names may be left out in MJCF, and an empty one is none.
+    pub(super) fn name(&self) -> Option<&Text<'d>> {
+        self.attribute("name").filter(|name| !name.text.trim().is_empty())
+    }
 }
 
 impl<'d, 't> Styled<'_, 'd, 't> {
@@ -157,7 +163,10 @@ impl<'d, 't> Classes<'d, 't> {
         around: Option<usize>,
         reading: &mut Reading<'_>,
     ) -> Styled<'c, 'd, 't> {
-        let class = own.attribute("class").and_then(|named| self.find(named, reading));
+        let class = own
+            .attribute("class")
+            .filter(|named| !named.text.is_empty())
+            .and_then(|named| self.find(named, reading));
         let defaults = self.chain(own.tag, class.or(around)).collect();
         Styled { own, defaults }
     }

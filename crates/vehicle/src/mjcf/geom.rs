@@ -84,7 +84,10 @@ impl Compiler {
         X_BF: &Pose<f64>,
         reading: &mut Reading<'_>,
     ) -> Geom {
-        let of_type = reading.word(geom.giver("type"), "type", &TYPES).unwrap_or("sphere");
+        let of_type = match geom.attribute("type") {
+            Some(_) => reading.word(geom.giver("type"), "type", &TYPES),
+            None => Some("sphere"),
+        };
         let nothing = Geom {
             at: tag_at(node, reading.text),
             solid: None,
@@ -99,13 +102,18 @@ impl Compiler {
         let in_groups = (lowest..=highest).contains(&group);
         let has_mass = in_groups && mass.or(density) != Some(0.0);
         let fitted = geom.attribute("mesh").is_some();
+        let Some(of_type) = of_type else {
+            return Geom { solid: Some(Solid::stand_in()), ..nothing };
+        };
         if matches!(of_type, "plane" | "hfield") {
             return nothing;
         }
         if fitted || matches!(of_type, "mesh" | "sdf") {
             return Geom { unknown: has_mass.then_some("a mesh"), ..nothing };
         }
-        let Some((form, X_FG)) = self.form(of_type, geom, reading) else { return nothing };
+        let Some((form, X_FG)) = self.form(of_type, geom, reading) else {
+            return Geom { solid: Some(Solid::stand_in()), ..nothing };
+        };
         let X_BG = *X_BF * X_FG;
         let outlines = outlines(form).into_iter().map(|(X_GS, kind)| (X_BG * X_GS, kind)).collect();
         let (extent, moments) = if shell {
@@ -118,20 +126,13 @@ impl Compiler {
             return Geom { unknown, outlines, ..nothing };
         };
         let mass = mass.unwrap_or_else(|| density.unwrap_or(DENSITY) * extent);
-        self.complain_of_mass(mass, geom, reading);
+        if mass < 0.0 {
+            complain_of_mass(mass, geom, reading);
+            return Geom { solid: Some(Solid::stand_in()), outlines, ..nothing };
+        }
         // What is lighter counts as nothing in MuJoCo too.
         let solid = (in_groups && mass > 1e-14).then(|| Solid::new(mass, moments, &X_BG));
         Geom { solid, outlines, ..nothing }
-    }
-
-    fn complain_of_mass(&self, mass: f64, geom: &Styled<'_, '_, '_>, reading: &mut Reading<'_>) {
-        if mass >= 0.0 {
-            return;
-        }
-        let message = format!("the mass of a geom must not be negative, found {mass} kg");
-        let written = geom.attribute("mass").or(geom.attribute("density"));
-        let at = written.map_or(&geom.own.at, |written| &written.at);
-        reading.found.error(at, message, "this mass", "leave out the sign");
     }
 
     /// Its form, and where that is in the frame that the geom is in; nothing after a complaint.
@@ -161,6 +162,13 @@ impl Compiler {
         };
         Some((form, X_FG))
     }
+}
+
+fn complain_of_mass(mass: f64, geom: &Styled<'_, '_, '_>, reading: &mut Reading<'_>) {
+    let message = format!("the mass of a geom must not be negative, found {mass} kg");
+    let written = geom.attribute("mass").or(geom.attribute("density"));
+    let at = written.map_or(&geom.own.at, |written| &written.at);
+    reading.found.error(at, message, "this mass", "leave out the sign");
 }
 
 /// The first sizes of a geom, all of them positive; nothing after a complaint.

@@ -72,7 +72,7 @@ impl Compiler {
         element.required("pos", reading);
         let mass = reading.required_number(&element, "mass");
         let mass_at = element.attribute("mass").map_or(&element.at, |written| &written.at).clone();
-        let inertia = self.inertia(&element, reading);
+        let inertia = inertia(&element, reading);
         let given = element.attribute("fullinertia").or(element.attribute("diaginertia"));
         let inertia_at = given.map_or(&element.at, |written| &written.at).clone();
         let X_BC = self.pose(&Styled::plain(element), reading);
@@ -86,37 +86,13 @@ impl Compiler {
         }
     }
 
-    /// The inertia in the axes of the inertial frame; nothing after a complaint.
-    fn inertia(&self, element: &Element<'_, '_>, reading: &mut Reading<'_>) -> Option<Sym3<f64>> {
-        if element.attribute("fullinertia").is_none() {
-            if element.attribute("diaginertia").is_none() {
-                let message = "<inertial> has neither `diaginertia` nor `fullinertia`".to_owned();
-                let help = "write diaginertia=\"xx yy zz\", or leave out <inertial> and give the \
-                            geoms mass";
-                reading.found.error(&element.at, message, "no inertia", help);
-            }
-            let [xx, yy, zz] = reading.numbers(element, "diaginertia", 3)?[..] else { return None };
-            return Some(Sym3::diagonal(xx, yy, zz));
-        }
-        for other in TURNS.into_iter().chain(["diaginertia"]) {
-            if let Some(written) = element.attribute(other) {
-                let message = format!("<inertial> has both `fullinertia` and `{other}`");
-                let help = "`fullinertia` is in the axes of the body; leave out one of them";
-                reading.found.error(&written.at, message, "beside `fullinertia`", help);
-            }
-        }
-        let [xx, yy, zz, xy, xz, yz] = reading.numbers(element, "fullinertia", 6)?[..] else {
-            return None;
-        };
-        Some(Sym3 { xx, yy, zz, xy, xz, yz })
-    }
-
     /// What `<compiler>` makes of mass properties: least values, and inertias that cannot be.
     fn corrected(&self, body: &str, matter: Matter, reading: &mut Reading<'_>) -> Matter {
-        let mass = matter.mass.max(self.least_mass);
+        // What is negative is refused later; MuJoCo refuses it too.
+        let mass = if matter.mass < 0.0 { matter.mass } else { matter.mass.max(self.least_mass) };
         let mut inertia = matter.inertia;
         let [least, ..] = principal_moments(inertia);
-        if least < self.least_inertia {
+        if least < self.least_inertia && self.least_inertia > 0.0 {
             inertia = raised(inertia, self.least_inertia).unwrap_or(inertia);
         }
         if mass != matter.mass || inertia != matter.inertia {
@@ -140,6 +116,31 @@ impl Compiler {
     }
 }
 
+/// The inertia in the axes of the inertial frame; nothing after a complaint.
+fn inertia(element: &Element<'_, '_>, reading: &mut Reading<'_>) -> Option<Sym3<f64>> {
+    if element.attribute("fullinertia").is_none() {
+        if element.attribute("diaginertia").is_none() {
+            let message = "<inertial> has neither `diaginertia` nor `fullinertia`".to_owned();
+            let help = "write diaginertia=\"xx yy zz\", or leave out <inertial> and give the \
+                        geoms mass";
+            reading.found.error(&element.at, message, "no inertia", help);
+        }
+        let [xx, yy, zz] = reading.numbers(element, "diaginertia", 3)?[..] else { return None };
+        return Some(Sym3::diagonal(xx, yy, zz));
+    }
+    for other in TURNS.into_iter().chain(["diaginertia"]) {
+        if let Some(written) = element.attribute(other) {
+            let message = format!("<inertial> has both `fullinertia` and `{other}`");
+            let help = "`fullinertia` is in the axes of the body; leave out one of them";
+            reading.found.error(&written.at, message, "beside `fullinertia`", help);
+        }
+    }
+    let [xx, yy, zz, xy, xz, yz] = reading.numbers(element, "fullinertia", 6)?[..] else {
+        return None;
+    };
+    Some(Sym3 { xx, yy, zz, xy, xz, yz })
+}
+
 /// The sum of a body's geoms, if any has mass; complains of mass that cannot be known.
 fn sum_of_geoms(
     (body, at): (&str, &Range<usize>),
@@ -155,7 +156,8 @@ fn sum_of_geoms(
             reading.found.error(&geom.at, message, "cannot be computed", help);
         }
     }
-    let solids: Vec<_> = geoms.iter().filter_map(|geom| geom.solid).collect();
+    let of_geom = |geom: &Geom| geom.unknown.map(|_| Solid::stand_in()).or(geom.solid);
+    let solids: Vec<_> = geoms.iter().filter_map(of_geom).collect();
     let Solid { mass, p_cm, inertia } = Solid::sum(&solids)?;
     let at = geoms.iter().find(|geom| geom.solid.is_some()).map_or(at, |geom| &geom.at);
     Some(Matter {

@@ -98,7 +98,7 @@ impl Compiler {
         X_BF: &Pose<f64>,
         reading: &mut Reading<'_>,
     ) -> MjcfJoint {
-        let at = joint.own.attribute("name").map_or(&joint.own.at, |name| &name.at).clone();
+        let at = joint.own.name().map_or(&joint.own.at, |name| &name.at).clone();
         let of_type =
             reading.word(joint.giver("type"), "type", &["hinge", "slide", "ball", "free"]);
         let motion = match of_type {
@@ -175,6 +175,6 @@ impl Compiler {
 
 /// Its name, or MuJoCo's number of a joint without one.
 pub(super) fn name_of(joint: &Styled<'_, '_, '_>, number: usize) -> String {
-    let written = joint.own.attribute("name").map(|name| name.text.to_owned());
+    let written = joint.own.name().map(|name| name.text.to_owned());
     written.unwrap_or_else(|| format!("joint{number}"))
 }

@@ -25,7 +25,7 @@ impl Reading<'_> {
         let mut postures: Vec<Posture> = Vec::new();
         for (number, node) in element.children("key").enumerate() {
             let key = self.open(node, &KEY);
-            let written = key.attribute("name");
+            let written = key.name();
             let name = written.map_or(format!("key{number}"), |name| name.text.to_owned());
             let at = written.map_or(&key.at, |name| &name.at);
             if postures.iter().any(|posture| posture.name == name) {

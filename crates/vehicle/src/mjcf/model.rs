@@ -1,6 +1,6 @@
 //! An MJCF file to a vehicle.
 
-use super::body::Bodies;
+use super::body::{Bodies, SITE};
 use super::compiler::Compiler;
 use super::contents::{Contents, Placed, WORLD};
 use super::defaults::Classes;
@@ -137,13 +137,13 @@ struct Parts {
     postures: Vec<Posture>,
 }
 
-fn parts<'d, 't>(root: &Element<'d, 't>, reading: &mut Reading<'d>) -> Parts {
+fn parts<'d>(root: &Element<'d, '_>, reading: &mut Reading<'d>) -> Parts {
     let mut compiler = Compiler::default();
     for node in root.children("compiler") {
         compiler.read(node, reading);
     }
     let sections = root.children("default");
-    let classes = Classes::read(sections, &[&JOINT, &GEOM, &EQUALITY], reading);
+    let classes = Classes::read(sections, &[&JOINT, &GEOM, &SITE, &EQUALITY], reading);
     refuse_couplings(root, &classes, reading);
     let base = base(root, &compiler, &classes, reading);
     let mut bodies = Bodies::new(compiler, &classes, reading);
@@ -152,7 +152,7 @@ fn parts<'d, 't>(root: &Element<'d, 't>, reading: &mut Reading<'d>) -> Parts {
     }
     let (mut links, joints, outlines) = (bodies.links, bodies.joints, bodies.outlines);
     let (is_free, armatures) = (bodies.is_free, bodies.armatures);
-    if let Some(base) = links.first().filter(|_| !is_free) {
+    if let Some(base) = links.first().filter(|_| bodies.stands) {
         let message = format!("'{}' is fixed to the world, but floats here", base.name);
         let help = "nothing holds a base in orbit; say so with <freejoint/>";
         reading.found.warning(&base.at, message, "not the ground", help);
@@ -184,6 +184,7 @@ fn base<'d, 't>(
         let Contents { bodies: more, .. } = compiler.contents(&world, node, None, classes, reading);
         bodies.extend(more);
     }
+    leave_out_mocap(&mut bodies, compiler, reading);
     let named = |placed: &Placed<'_, '_>| placed.node.attribute("name").unwrap_or("?").to_owned();
     match bodies[..] {
         [] => {
@@ -204,10 +205,31 @@ fn base<'d, 't>(
     }
 }
 
+/// Leaves out bodies that a user moves by hand: marks of a scene, not part of a vehicle.
+fn leave_out_mocap(
+    bodies: &mut Vec<Placed<'_, '_>>,
+    compiler: &Compiler,
+    reading: &mut Reading<'_>,
+) {
+    let is_mocap = |placed: &Placed<'_, '_>| placed.node.attribute("mocap") == Some("true");
+    if bodies.iter().all(&is_mocap) {
+        return;
+    }
+    for mark in bodies.iter().filter(|placed| is_mocap(placed)) {
+        let at = tag_at(mark.node, reading.text);
+        if compiler.total_mass.is_some() {
+            let message = "`settotalmass` counts a mocap body, which is left out here".to_owned();
+            reading.found.error(&at, message, "a mocap body", "leave it out of the file");
+        }
+        reading.not_used("a mocap body on the world".to_owned(), at);
+    }
+    bodies.retain(|placed| !is_mocap(placed));
+}
+
 /// Refuses what couples joints or closes loops, unless it is switched off, and what adds bodies.
 fn refuse_couplings(root: &Element<'_, '_>, classes: &Classes<'_, '_>, reading: &mut Reading<'_>) {
     let sections = root.children("equality").flat_map(|node| node.children());
-    for node in sections.filter(|node| node.is_element()) {
+    for node in sections.filter(Node::is_element) {
         let own = node.attribute("active").map(str::trim);
         let active =
             own.map_or_else(|| classes.activity(node.attribute("class")), |a| a != "false");

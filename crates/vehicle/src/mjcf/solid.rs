@@ -120,6 +120,11 @@ impl Solid {
         Self { mass, p_cm: X_BG.translation, inertia }
     }
 
+    /// What stands in for a solid after a complaint: the rest is still checked.
+    pub(super) fn stand_in() -> Self {
+        Self { mass: 1.0, p_cm: Vec3::default(), inertia: Sym3::diagonal(1.0, 1.0, 1.0) }
+    }
+
     /// Several as one; none of none.
     pub(super) fn sum(solids: &[Self]) -> Option<Self> {
         if let [only] = solids {
