@@ -8,8 +8,8 @@ Each file is read by `wrasse eval` and by MuJoCo, and the mass matrices are comp
 within ±1 (rad, m), any attitude. The largest difference is told as a part of the largest element.
 Three things are done to MuJoCo's reading first, and no more:
 
-- what has no mass or is not there is taken out: sites, cameras, sensors, mesh files and the geoms made of
-  them (they are mass-less where a body has its <inertial>; a body without is refused by wrasse);
+- what has no mass or needs a file is taken out: sensors, drives, textures, mocap bodies on the world, meshes
+  and the geoms made of them (where a body has no <inertial>, wrasse refuses them);
 - a base that is fixed to the world gets a <freejoint/>, because it floats in wrasse;
 - dof_armature is set to zero: MuJoCo adds it to the diagonal, wrasse says that it does not model it.
 
@@ -41,8 +41,8 @@ def without_meshes(spec):
         for element in list(getattr(spec, kind, [])):
             spec.delete(element)
     for body in spec.bodies:
-        for geom in body.geoms:
-            geom.material = ""
+        for shown in [*body.geoms, *body.sites]:
+            shown.material = ""
     for kind in ("materials", "textures"):
         for element in list(getattr(spec, kind, [])):
             spec.delete(element)
@@ -51,6 +51,10 @@ def without_meshes(spec):
 def model(path):
     spec = mujoco.MjSpec.from_file(str(path))
     without_meshes(spec)
+    for mark in [body for body in spec.worldbody.bodies if body.mocap]:
+        spec.delete(mark)
+    if len(spec.worldbody.bodies) != 1:
+        raise ValueError(f"{len(spec.worldbody.bodies)} bodies on the world")
     [base] = spec.worldbody.bodies
     if not any(joint.type == mujoco.mjtJoint.mjJNT_FREE for joint in base.joints):
         base.add_freejoint()

@@ -44,7 +44,7 @@ fn hexadecimal(bytes: &[u8]) -> String {
     })
 }
 
-/// A TOML text in its one form; any other, a URDF, as it is.
+/// A TOML text in its one form; any other, a URDF or MJCF, as it is.
 fn canonical(text: &str) -> String {
     Document::parse("", text).map_or_else(|_| text.to_owned(), |found| found.canonical(&WORDS))
 }
