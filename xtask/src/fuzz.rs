@@ -6,9 +6,10 @@ use std::process::Command;
 use std::{env, fs};
 
 /// A target and the folders with files of its kind, from the root of the repository.
-const TARGETS: [(&str, &[&str]); 6] = [
+const TARGETS: [(&str, &[&str]); 7] = [
     ("vehicle_toml", &["vehicles", "crates/vehicle/tests/data"]),
     ("vehicle_urdf", &["validation/golden", "crates/vehicle/tests/data"]),
+    ("vehicle_mjcf", &["crates/vehicle/tests/data/mjcf"]),
     ("mission_toml", &["missions", "fuzz/seeds/mission_toml"]),
     ("eval_json", &["fuzz/seeds/eval_json"]),
     ("sweep_folder", &["fuzz/seeds/sweep_folder"]),

@@ -14,8 +14,9 @@ use wrasse_vehicle::read_vehicle;
 
 /// Check vehicle and mission files: every complaint at once, with its place.
 ///
-/// A TOML file with a `vehicle` key or phases is a mission, any other a vehicle; .urdf and .xml are
-/// vehicles. Lists of hardware and of sets of actuators are told from these, and read as TOML only.
+/// A TOML file with a `vehicle` key or phases is a mission, any other a vehicle; .urdf, .mjcf and
+/// .xml are vehicles. Lists of hardware and of sets of actuators are told from these, and read as
+/// TOML only.
 /// Exit code 0: usable (warnings may be printed); 2: not usable.
 #[derive(Debug, Args)]
 #[command(

@@ -20,10 +20,11 @@ impl Mission {
         };
         add(&self.canonical);
         let mut seen: Vec<&str> = vec![];
-        for vehicle in self.cases.iter().map(|case| -> &Vehicle { &case.vehicle }) {
-            if !seen.contains(&vehicle.text.as_str()) {
-                seen.push(&vehicle.text);
-                add(&canonical(&vehicle.text));
+        let vehicles = self.cases.iter().map(|case| -> &Vehicle { &case.vehicle });
+        for (_, text) in vehicles.flat_map(Vehicle::files) {
+            if !seen.contains(&text) {
+                seen.push(text);
+                add(&canonical(text));
             }
         }
         hardware_texts().for_each(|text| add(&canonical(text)));
@@ -44,7 +45,7 @@ fn hexadecimal(bytes: &[u8]) -> String {
     })
 }
 
-/// A TOML text in its one form; any other, a URDF, as it is.
+/// A TOML text in its one form; any other, a URDF or MJCF, as it is.
 fn canonical(text: &str) -> String {
     Document::parse("", text).map_or_else(|_| text.to_owned(), |found| found.canonical(&WORDS))
 }

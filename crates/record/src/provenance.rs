@@ -43,8 +43,11 @@ impl Provenance {
     pub fn of(mission: &Mission, commit: &str, command_line: Vec<String>) -> Self {
         let mut vehicles: Vec<FileRecord> = vec![];
         for case in &mission.cases {
-            if vehicles.iter().all(|known| known.text != case.vehicle.text) {
-                vehicles.push(FileRecord::of(&case.vehicle_name, &case.vehicle.text));
+            for (path, text) in case.vehicle.files() {
+                if vehicles.iter().all(|known| known.text != text) {
+                    let name = path.map_or(case.vehicle_name.clone(), |p| p.display().to_string());
+                    vehicles.push(FileRecord::of(&name, text));
+                }
             }
         }
         Self {

@@ -13,58 +13,68 @@ const MANY: usize = 200;
 /// without each link carrying its file.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct SourceFiles {
-    files: Vec<File>,
+    pieces: Vec<Piece>,
 }
 
-/// One file among several.
+/// A file, or a part of one where the text of another stands within it.
 #[derive(Debug, Clone)]
-struct File {
+struct Piece {
     source: Arc<Source>,
+    /// The part of the file.
+    at: Range<usize>,
     /// Where it begins among all files.
     begin: usize,
-    /// Where its lines begin, among all files.
-    lines: Vec<usize>,
+    /// Where the lines of the whole file begin.
+    lines: Arc<Vec<usize>>,
 }
 
 impl SourceFiles {
     /// One file.
     pub(crate) fn of(source: &Arc<Source>) -> Self {
-        let mut sources = Self::default();
-        sources.push(source);
-        sources
+        Self::spliced([(Arc::clone(source), 0..source.text.len())])
+    }
+    /// Parts of files, whose text stands one behind the other.
+    pub(crate) fn spliced(parts: impl IntoIterator<Item = (Arc<Source>, Range<usize>)>) -> Self {
+        let mut files = Self::default();
+        let mut begin = 0;
+        for (source, at) in parts {
+            let ends = source.text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+            let lines = std::iter::once(0).chain(ends.map(|(at, _)| at + 1)).collect();
+            let length = at.len();
+            files.pieces.push(Piece { source, at, begin, lines: Arc::new(lines) });
+            begin += length;
+        }
+        files
     }
     /// One byte more than all files have: the next file begins there.
     fn end(&self) -> usize {
-        self.files.last().map_or(0, |file| file.begin + file.source.text.len() + 1)
-    }
-    fn push(&mut self, source: &Arc<Source>) {
-        let begin = self.end();
-        let ends = source.text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
-        let lines = std::iter::once(begin).chain(ends.map(|(at, _)| begin + at + 1)).collect();
-        self.files.push(File { source: Arc::clone(source), begin, lines });
+        self.pieces.last().map_or(0, |piece| piece.begin + piece.at.len() + 1)
     }
     /// Puts the files of another reading behind these. By how much its places move.
     pub(crate) fn append(&mut self, others: &Self) -> usize {
         let moved = self.end();
-        others.files.iter().for_each(|file| self.push(&file.source));
+        let after = others.pieces.iter().cloned();
+        self.pieces.extend(after.map(|piece| Piece { begin: piece.begin + moved, ..piece }));
         moved
     }
     /// All files, in the order in which they were read.
     pub(crate) fn iter(&self) -> impl Iterator<Item = &Arc<Source>> {
-        self.files.iter().map(|file| &file.source)
+        let sources = || self.pieces.iter().map(|piece| &piece.source);
+        let first = move |k: usize, source: &Arc<Source>| {
+            sources().take(k).all(|earlier| !Arc::ptr_eq(earlier, source))
+        };
+        sources().enumerate().filter(move |(k, source)| first(*k, source)).map(|(_, source)| source)
     }
-    fn file(&self, byte: usize) -> Option<&File> {
-        let after = self.files.partition_point(|file| file.begin <= byte);
-        self.files.get(after.saturating_sub(1))
-    }
-    /// Number of the line (from 1) on which a byte stands, in its own file.
-    fn line(&self, byte: usize) -> usize {
-        self.file(byte).map_or(1, |file| file.lines.partition_point(|begin| *begin <= byte).max(1))
+    /// The file in which a byte stands, and its place there.
+    fn place(&self, byte: usize) -> Option<(&Piece, usize)> {
+        let after = self.pieces.partition_point(|piece| piece.begin <= byte);
+        let piece = self.pieces.get(after.checked_sub(1)?)?;
+        Some((piece, (byte - piece.begin + piece.at.start).min(piece.at.end)))
     }
     /// Place of a source among the files.
     fn rank(&self, source: &Arc<Source>) -> usize {
-        let same = |file: &File| Arc::ptr_eq(&file.source, source) || file.source == *source;
-        self.files.iter().position(same).unwrap_or(usize::MAX)
+        let same = |piece: &Piece| Arc::ptr_eq(&piece.source, source) || piece.source == *source;
+        self.pieces.iter().position(same).unwrap_or(usize::MAX)
     }
 }
 
@@ -105,13 +115,13 @@ impl Findings {
         label: &str,
         help: &str,
     ) {
-        let Some(file) = self.sources.file(at.start) else { return };
-        let (begin, end) = (at.start - file.begin, at.end.saturating_sub(file.begin));
+        let Some((piece, begin)) = self.sources.place(at.start) else { return };
+        let end = begin + at.len();
         self.list.push(Complaint {
             severity,
             message,
-            source: Arc::clone(&file.source),
-            span: Some(begin..end.min(file.source.text.len()).max(begin)),
+            source: Arc::clone(&piece.source),
+            span: Some(begin..end.min(piece.at.end).max(begin)),
             label: label.to_owned(),
             help: (!help.is_empty()).then(|| help.to_owned()),
         });
@@ -123,12 +133,12 @@ impl Findings {
     /// The line on which a byte stands, for a complaint at `here`: `line 12`, and of which file, if it
     /// is another one.
     pub(crate) fn line(&self, byte: usize, here: &Range<usize>) -> String {
-        let line = self.sources.line(byte);
-        match (self.sources.file(byte), self.sources.file(here.start)) {
-            (Some(there), Some(here)) if there.begin != here.begin => {
-                format!("line {line} of {}", there.source.path.display())
-            }
-            _ => format!("line {line}"),
+        let Some((piece, place)) = self.sources.place(byte) else { return "line 1".into() };
+        let line = piece.lines.partition_point(|begin| *begin <= place).max(1);
+        let elsewhere = self.sources.place(here.start);
+        match elsewhere.filter(|(other, _)| !Arc::ptr_eq(&other.source, &piece.source)) {
+            Some(_) => format!("line {line} of {}", piece.source.path.display()),
+            None => format!("line {line}"),
         }
     }
     /// Whether there are more than anybody reads: to look for what was meant by each takes the time of

@@ -1,8 +1,9 @@
-//! Vehicle files (TOML, URDF, Denavit-Hartenberg rows) to checked vehicles.
+//! Vehicle files (TOML, URDF, MJCF, Denavit-Hartenberg rows) to checked vehicles.
 //!
 //! Rooms, each of which uses those before it: `table` (what all tables of a file share), `check`
 //! (whether what a file says can be), `hardware` (the tables `[actuators]` and `[sensors]`, and the
-//! catalogue of units), `toml` and `urdf` (one file for each table or element).
+//! catalogue of units), `xml` (what all readers of XML share), `toml`, `urdf` and `mjcf` (one file
+//! for each table or element).
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
 mod assemble;
@@ -15,6 +16,7 @@ mod figures;
 mod findings;
 mod followers;
 mod hardware;
+mod mjcf;
 mod model;
 mod provenance;
 mod read_vehicle;
@@ -23,6 +25,7 @@ mod table;
 mod toml;
 mod urdf;
 mod vehicle;
+mod xml;
 
 pub use catalogue::{CatalogueEntry, NoVehicle, catalogue, find_vehicle};
 pub use check::check_equipment;

@@ -1,5 +1,6 @@
 //! A vehicle file to a vehicle, whatever its format.
 
+use crate::mjcf::{is_mjcf, read_mjcf};
 use crate::model::Model;
 use crate::toml::read_toml;
 use crate::urdf::read_urdf;
@@ -8,8 +9,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use wrasse_document::{Complaint, Source};
 
-/// The vehicle that a file describes; its ending says the format (`.toml`, `.urdf` or
-/// `.xml`). Files that it includes are read from where it says, seen from its own folder.
+/// The vehicle that a file describes; its ending says the format (`.toml`, `.urdf`, `.mjcf`, or `.xml`,
+/// whose root then says which of the two it is). Files that it includes are read from where it says, seen
+/// from its own folder.
 ///
 /// Warnings and notes are in [`Vehicle::remarks`].
 ///
@@ -35,13 +37,17 @@ pub(crate) fn read_model(
     nesting.open.push(source.path.clone());
     let read = match ending.as_deref() {
         Some("toml") => read_toml(source, nesting),
+        Some("mjcf") => read_mjcf(source),
+        Some("xml") if is_mjcf(&source.text) => read_mjcf(source),
         Some("urdf" | "xml") => read_urdf(source),
         other => {
             let found =
                 other.map_or("no ending".into(), |ending| format!("the ending '.{ending}'"));
             let message = format!("the ending of a vehicle file says its format, found {found}");
             let complaint = Complaint::error(source, message);
-            Err(vec![complaint.with_help("vehicle files end in .toml, .urdf or .xml")])
+            Err(vec![complaint.with_help(
+                "vehicle files end in .toml, .urdf, .mjcf or .xml; convert SDF to URDF",
+            )])
         }
     };
     nesting.open.pop();

@@ -3,6 +3,7 @@
 use crate::assembly::{Link, Matter};
 use crate::equipment::Equipment;
 use crate::provenance::Provenance;
+use std::path::Path;
 use std::sync::Arc;
 use wrasse_document::{Complaint, Source};
 use wrasse_dynamics::{Frame, Robot};
@@ -174,6 +175,13 @@ impl Vehicle {
     /// The frame of this name.
     pub fn frame(&self, name: &str) -> Option<Frame<f64>> {
         self.frames.iter().find(|f| f.name == name).map(|f| f.frame)
+    }
+    /// The texts that it was read from: its own file, of which it does not know the path, then those that
+    /// this one includes.
+    pub fn files(&self) -> impl Iterator<Item = (Option<&Path>, &str)> {
+        let included = self.included.iter();
+        let included = included.map(|source| (Some(source.path.as_path()), source.text.as_str()));
+        std::iter::once((None, self.text.as_str())).chain(included)
     }
     /// The number of the joint of this name.
     pub fn joint(&self, name: &str) -> Option<usize> {

@@ -5,6 +5,7 @@ use crate::catalogue::vehicle_source;
 use crate::model::{Model, any_error};
 use crate::read_vehicle::{Nesting, read_model};
 use crate::table::{OrientationFile, ProvenanceFile, Reading, under};
+use crate::urdf::NO_PROVENANCE;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeSet;
@@ -60,7 +61,7 @@ pub(crate) fn include(
         assembly.put_before_names(prefix);
     }
     if file.provenance.source.is_some() {
-        assembly.provenance.retain(|row| row.source != crate::urdf::NO_PROVENANCE);
+        assembly.provenance.retain(|row| row.source != NO_PROVENANCE);
     }
     Some(assembly)
 }

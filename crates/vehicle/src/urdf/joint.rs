@@ -1,7 +1,7 @@
 //! A `<joint>`: how it moves, what it connects, what limits it.
 
-use super::element::{Element, Kind, Reading, Text};
 use crate::assembly::{AssemblyJoint, Mimic};
+use crate::xml::{Element, Kind, Reading, Text};
 use roxmltree::Node;
 use std::ops::Range;
 use wrasse_document::closest;

@@ -1,8 +1,8 @@
 //! A `<link>`: its mass properties, and its visual boxes, cylinders and balls for drawings.
 
-use super::element::{Element, Kind, Reading, tag_at};
 use crate::assembly::{Link, Matter, Outline, Rounding};
 use crate::vehicle::ShapeKind;
+use crate::xml::{Element, Kind, Reading, tag_at};
 use roxmltree::Node;
 use std::ops::Range;
 use wrasse_spatial::{Pose, Sym3};

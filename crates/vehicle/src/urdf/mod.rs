@@ -1,6 +1,5 @@
 //! URDF files.
 
-mod element;
 mod joint;
 mod link;
 mod numbers;

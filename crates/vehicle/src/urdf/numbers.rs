@@ -1,11 +1,10 @@
-//! Numbers in the attributes of a URDF, each with its place.
+//! The `<origin>` of a URDF.
 
-use super::element::{Element, Kind, Reading, Text};
 use crate::rotation::from_roll_pitch_yaw;
+use crate::xml::{Element, Kind, Reading};
 use core::f64::consts::TAU;
 use roxmltree::Node;
-use std::ops::Range;
-use wrasse_spatial::{Mat3, Pose, Quat, Vec3};
+use wrasse_spatial::{Mat3, Pose, Quat};
 
 const ORIGIN: Kind =
     Kind { tag: "origin", attributes: &["xyz", "rpy", "quat_xyzw"], children: &[], unused: &[] };
@@ -14,62 +13,6 @@ const ORIGIN: Kind =
 const QUATERNION_ROUND_OFF: f64 = 1e-5;
 
 impl Reading<'_> {
-    /// A number that must be there; nothing after a complaint.
-    pub(crate) fn required_number(&mut self, element: &Element<'_, '_>, name: &str) -> Option<f64> {
-        element.required(name, self)?;
-        self.number(element, name)
-    }
-
-    /// A number, if it is there; nothing after a complaint.
-    pub(crate) fn number(&mut self, element: &Element<'_, '_>, name: &str) -> Option<f64> {
-        match self.numbers(element, name, 1)?[..] {
-            [x] => Some(x),
-            _ => None,
-        }
-    }
-
-    /// Three numbers, if they are there; nothing after a complaint.
-    pub(crate) fn vector(&mut self, element: &Element<'_, '_>, name: &str) -> Option<Vec3<f64>> {
-        match self.numbers(element, name, 3)?[..] {
-            [x, y, z] => Some(Vec3 { x, y, z }),
-            _ => None,
-        }
-    }
-
-    fn numbers(
-        &mut self,
-        element: &Element<'_, '_>,
-        name: &str,
-        expected: usize,
-    ) -> Option<Vec<f64>> {
-        let value = element.attribute(name)?;
-        let words = words(value, self.text);
-        if words.len() != expected {
-            let wanted = match expected {
-                1 => "one number",
-                3 => "three numbers",
-                _ => "four numbers",
-            };
-            let what = format!("`{name}` of <{}>", element.tag);
-            let message = format!("{what} must be {wanted}, found {}", words.len());
-            let help = "separate numbers by spaces; the decimal sign is a point";
-            self.found.error(&value.at, message, wanted, help);
-            return None;
-        }
-        let numbers: Vec<_> = words
-            .into_iter()
-            .map(|(word, at)| {
-                let number = finite(word);
-                if let Err((problem, help)) = number {
-                    let message = format!("`{name}` of <{}>: '{word}' is {problem}", element.tag);
-                    self.found.error(&at, message, problem, help);
-                }
-                number.ok()
-            })
-            .collect();
-        numbers.into_iter().collect()
-    }
-
     /// The pose that an `<origin>` gives; the identity where there is none.
     pub(crate) fn pose(&mut self, origin: Option<Node<'_, '_>>) -> Pose<f64> {
         let Some(node) = origin else { return Pose::identity() };
@@ -108,33 +51,5 @@ impl Reading<'_> {
             return Some(Mat3::identity());
         }
         Some(quat.normalized().to_matrix())
-    }
-}
-
-/// The words of a value and their places. A value written with entities has one place for all.
-fn words<'a>(value: &Text<'a>, text: &'a str) -> Vec<(&'a str, Range<usize>)> {
-    match text.get(value.at.clone()) {
-        Some(written) if !written.contains('&') => {
-            let mut from = 0;
-            let place = |word: &'a str| {
-                let start = from + written[from..].find(word).unwrap_or(0);
-                from = start + word.len();
-                (word, value.at.start + start..value.at.start + from)
-            };
-            written.split_whitespace().map(place).collect()
-        }
-        _ => value.text.split_whitespace().map(|word| (word, value.at.clone())).collect(),
-    }
-}
-
-/// A finite number, or what is wrong with it and how to mend it.
-fn finite(word: &str) -> Result<f64, (&'static str, &'static str)> {
-    match word.parse::<f64>() {
-        Ok(x) if x.is_finite() => Ok(x),
-        Ok(_) => Err(("not finite", "write a finite number")),
-        Err(_) if word.contains(',') => {
-            Err(("not a number", "the decimal sign is a point; separate numbers by spaces"))
-        }
-        Err(_) => Err(("not a number", "write a number such as 0.25 or 1e-3")),
     }
 }

@@ -1,16 +1,23 @@
 //! A URDF file to a vehicle.
 
-use super::element::{Element, Kind, Reading, tag_at};
 use super::joint::{Type, UrdfJoint};
 use crate::assembly::{Assembly, AssemblyJoint, Link, Outline};
 use crate::findings::{Findings, SourceFiles};
 use crate::model::Model;
 use crate::provenance::{Grade, Provenance};
+use crate::xml::{Element, Format, Kind, Reading, not_xml, tag_at};
 use roxmltree::Document;
 use std::ops::Range;
 use std::sync::Arc;
 use wrasse_document::{Complaint, Source};
 
+const URDF: Format = Format {
+    name: "URDF",
+    why_unused: &[
+        ("<dynamics>", "joints are ideal: no friction, no damping"),
+        ("<collision>", "links do not touch each other"),
+    ],
+};
 const ROBOT: Kind = Kind {
     tag: "robot",
     attributes: &["name"],
@@ -42,10 +49,18 @@ pub(crate) fn read_urdf(source: &Arc<Source>) -> Result<Model, Vec<Complaint>> {
     let found = Findings::new(source);
     let document = match Document::parse(&source.text) {
         Ok(document) => document,
-        Err(why) => return Err(not_xml(&why, &source.text, found)),
+        Err(why) => {
+            let help = match why {
+                roxmltree::Error::UnknownNamespace(ref prefix, _) if prefix == "xacro" => {
+                    EXPAND_XACRO
+                }
+                _ => "the file must be well-formed XML with one <robot>",
+            };
+            return Err(not_xml(&why, help, &source.text, found));
+        }
     };
     refuse_other_formats(&document, source)?;
-    let mut reading = Reading::new(&source.text, found);
+    let mut reading = Reading::new(&source.text, found, &URDF);
     let robot = reading.open(document.root_element(), &ROBOT);
     let name = robot.required("name", &mut reading);
     let (mut links, outlines) = reading.links(&robot);
@@ -135,32 +150,6 @@ fn world(links: &[Link], joints: &[UrdfJoint]) -> Option<usize> {
     (at_world.next().is_none() && is_frame && floats).then_some(place)
 }
 
-/// The complaint about a file that is not XML.
-fn not_xml(why: &roxmltree::Error, text: &str, mut found: Findings) -> Vec<Complaint> {
-    let position = why.pos();
-    let at = byte_at(text, position.row, position.col);
-    let told = why.to_string();
-    let message = told.strip_suffix(&format!(" at {position}")).unwrap_or(&told);
-    let help = match why {
-        roxmltree::Error::UnknownNamespace(prefix, _) if prefix == "xacro" => EXPAND_XACRO,
-        _ => "the file must be well-formed XML with one <robot>",
-    };
-    found.error(&at, format!("not XML: {message}"), "here", help);
-    found.into_complaints()
-}
-
-/// The character at a row and column, both from 1.
-fn byte_at(text: &str, row: u32, column: u32) -> Range<usize> {
-    let before: usize =
-        text.split_inclusive('\n').take(row.saturating_sub(1) as usize).map(str::len).sum();
-    let line = text.get(before..).unwrap_or_default();
-    let within: usize =
-        line.chars().take(column.saturating_sub(1) as usize).map(char::len_utf8).sum();
-    let start = before + within;
-    let length = text.get(start..).and_then(|rest| rest.chars().next()).map_or(0, char::len_utf8);
-    start..start + length
-}
-
 /// Refuses xacro and files that are no URDF, with what to do.
 fn refuse_other_formats(
     document: &Document<'_>,
@@ -181,8 +170,8 @@ fn refuse_other_formats(
     } else if root.tag_name().name() != "robot" {
         let name = root.tag_name().name();
         let help = match name {
-            "sdf" => "this looks like SDF; convert it to URDF",
-            "mujoco" => "this looks like MJCF; convert it to URDF",
+            "sdf" => "this looks like SDF; convert it to URDF or MJCF",
+            "mujoco" => "this looks like MJCF: give the file the ending .mjcf",
             _ => "a URDF is one <robot name=\"…\"> with links and joints",
         };
         let message = format!("expected <robot>, found <{name}>");

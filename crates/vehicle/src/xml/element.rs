@@ -1,10 +1,18 @@
-//! Elements of a URDF with their known attributes and children. What is not known is answered by
-//! name; what is known and not used is counted.
+//! Elements of an XML file with their known attributes and children. What is not known is answered
+//! by name; what is known and not used is counted.
 
 use crate::findings::Findings;
 use roxmltree::{Attribute, Node};
 use std::ops::Range;
 use wrasse_document::closest;
+
+/// What is said of a format as a whole.
+#[derive(Debug)]
+pub(crate) struct Format {
+    pub(crate) name: &'static str,
+    /// What follows from a thing not being used, by the name that it is counted under.
+    pub(crate) why_unused: &'static [(&'static str, &'static str)],
+}
 
 /// What an element may hold.
 #[derive(Debug)]
@@ -12,7 +20,7 @@ pub(crate) struct Kind {
     pub(crate) tag: &'static str,
     pub(crate) attributes: &'static [&'static str],
     pub(crate) children: &'static [&'static str],
-    /// Attributes and children that URDF knows and wrasse has no use for.
+    /// Attributes and children that the format knows and wrasse has no use for.
     pub(crate) unused: &'static [&'static str],
 }
 
@@ -38,6 +46,7 @@ pub(crate) struct Text<'a> {
 pub(crate) struct Reading<'t> {
     pub(crate) text: &'t str,
     pub(crate) found: Findings,
+    format: &'static Format,
     unused: Vec<Unused>,
 }
 
@@ -59,8 +68,8 @@ pub(crate) fn tag_at(node: Node<'_, '_>, text: &str) -> Range<usize> {
 
 impl<'t> Reading<'t> {
     /// Of a file's text, with nothing found yet.
-    pub(crate) fn new(text: &'t str, found: Findings) -> Self {
-        Self { text, found, unused: Vec::new() }
+    pub(crate) fn new(text: &'t str, found: Findings, format: &'static Format) -> Self {
+        Self { text, found, format, unused: Vec::new() }
     }
 
     /// An element with all that it holds; complains of what it should not hold.
@@ -86,8 +95,8 @@ impl<'t> Reading<'t> {
                 element.children.extend(self.child_meant(child, kind).map(|name| (name, child)));
             } else if child.is_text() && child.text().is_some_and(|t| !t.trim().is_empty()) {
                 let message = format!("text inside <{}> is not used", kind.tag);
-                let help = "URDF keeps values in attributes";
-                self.found.warning(&trimmed(self.text, child.range()), message, "not used", help);
+                let help = format!("{} keeps values in attributes", self.format.name);
+                self.found.warning(&trimmed(self.text, child.range()), message, "not used", &help);
             }
         }
         element
@@ -158,11 +167,8 @@ impl<'t> Reading<'t> {
     pub(crate) fn into_findings(mut self) -> Findings {
         for Unused { name, count, first } in self.unused {
             let times = if count == 1 { String::new() } else { format!(" ({count} times)") };
-            let help = match &*name {
-                "<dynamics>" => "joints are ideal: no friction, no damping",
-                "<collision>" => "links do not touch each other",
-                _ => "",
-            };
+            let why = self.format.why_unused.iter().find(|(of, _)| *of == name);
+            let help = why.map_or("", |(_, why)| why);
             self.found.note(&first, format!("{name} is not used{times}"), "not used", help);
         }
         self.found

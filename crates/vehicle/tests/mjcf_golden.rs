@@ -1,0 +1,120 @@
+//! MJCF models, read and held against what MuJoCo 4.0.0 computes for them.
+#![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
+
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use wrasse_document::Severity;
+use wrasse_dynamics::{State, kinematics, mass_matrix};
+use wrasse_testing::larger;
+use wrasse_vehicle::{JOINTS, Vehicle, read_vehicle};
+
+/// Sums of a few hundred products, each off by ε = 2e-16 of the largest.
+const ROUND_OFF: f64 = 1e-14;
+
+fn data(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/mjcf").join(name)
+}
+
+#[track_caller]
+fn read(name: &str) -> Vehicle {
+    let path = data(&format!("{name}.xml"));
+    let text = std::fs::read_to_string(&path).expect(name);
+    read_vehicle(path, text).unwrap_or_else(|complaints| panic!("{name}: {complaints:#?}"))
+}
+
+/// Largest difference of all elements at both states, as a part of the largest element.
+#[track_caller]
+fn off(name: &str) -> f64 {
+    let vehicle = read(name);
+    let text = std::fs::read_to_string(data(&format!("{name}.json"))).expect(name);
+    let golden: Value = serde_json::from_str(&text).expect(name);
+    assert_eq!(Value::from(vehicle.joint_names.clone()), golden["joint_names"]);
+    let states = golden["states"].as_array().expect("states");
+    assert_eq!(states.len(), 2);
+    let matrices = golden["mass_matrices"].as_array().expect("matrices");
+    states.iter().zip(matrices).fold(0.0, |off, (state, expected)| {
+        larger(off, relative_difference(&dense_mass_matrix(&vehicle, &state["joints"]), expected))
+    })
+}
+
+fn dense_mass_matrix(vehicle: &Vehicle, joints: &Value) -> Vec<Vec<f64>> {
+    let mut state = State::<f64, JOINTS>::default();
+    for (q, name) in state.q.iter_mut().zip(&vehicle.joint_names) {
+        *q = joints[name]["position"].as_f64().expect("a position");
+    }
+    let M = mass_matrix(&kinematics(&vehicle.robot, &state));
+    let n = vehicle.robot.joint_count();
+    (0..6 + n).map(|i| (0..6 + n).map(|k| M.element(i, k)).collect()).collect()
+}
+
+fn relative_difference(M: &[Vec<f64>], expected: &Value) -> f64 {
+    let (mut off, mut scale) = (0.0_f64, 0.0_f64);
+    assert_eq!(expected.as_array().expect("rows").len(), M.len());
+    for (i, row) in M.iter().enumerate() {
+        for (k, &found) in row.iter().enumerate() {
+            let wanted = expected[i][k].as_f64().expect("a number");
+            off = larger(off, (found - wanted).abs());
+            scale = larger(scale, wanted.abs());
+        }
+    }
+    off / scale
+}
+
+/// Classes, degrees, geoms with density and mass, joints off the origin, references, sites.
+#[test]
+fn the_mass_matrix_of_a_servicer_is_mujocos() {
+    let off = off("servicer");
+    assert!(off < ROUND_OFF, "measured 1.4e-15: {off:e}");
+}
+
+/// Radians, another order of Euler angles, shells, frames, groups, least and balanced inertias, a
+/// total mass.
+#[test]
+fn what_the_compiler_is_told_to_make_of_masses_is_made_of_them() {
+    let off = off("conventions");
+    assert!(off < ROUND_OFF, "measured 8e-16: {off:e}");
+}
+
+#[test]
+fn a_model_in_three_files_is_read_as_one() {
+    let off = off("included");
+    assert!(off < ROUND_OFF, "measured 3.5e-16: {off:e}");
+    let vehicle = read("included");
+    let texts: Vec<_> = vehicle.files().map(|(_, text)| text).collect();
+    let told = |what: &str| texts.iter().any(|text| text.contains(what));
+    assert!(texts.len() == 3 && told("density=\"900\"") && told("0 0 0 0.9 0 0"));
+    assert!(vehicle.frame("mark").is_some());
+}
+
+/// Pieces between two joints of a body have no mass.
+#[test]
+fn several_joints_in_a_body_move_it_one_after_the_other() {
+    let off = off("several_joints");
+    assert!(off < ROUND_OFF, "measured 1.8e-16: {off:e}");
+}
+
+#[test]
+fn an_armature_is_told_of_by_joint_and_left_out() {
+    let vehicle = read("servicer");
+    let warnings: Vec<_> =
+        vehicle.remarks.iter().filter(|r| r.severity == Severity::Warning).collect();
+    let [warning] = &warnings[..] else { panic!("{warnings:#?}") };
+    assert!(warning.message.starts_with("the armature of 5 joints is not modelled"));
+    let help = warning.help.as_deref().expect("a help");
+    assert!(help.ends_with(
+        "left out of left_shoulder, left_elbow, left_wrist, right_shoulder, right_slide"
+    ));
+}
+
+#[test]
+fn a_keyframe_is_a_posture_and_a_site_a_frame() {
+    let vehicle = read("servicer");
+    assert_eq!(vehicle.posture("home").expect("home").q, [0.1, -0.2, 0.3, 0.4, 0.05]);
+    for frame in ["bus", "port", "left_tool", "right2"] {
+        assert!(vehicle.frame(frame).is_some(), "{frame}");
+    }
+    let limits = vehicle.limits[2];
+    assert_eq!(limits.effort, Some(20.0));
+    assert!(limits.travel.is_some_and(|(lower, upper)| lower == -upper && upper > 2.6));
+    assert_eq!(vehicle.limits[4].travel, Some((-0.2, 0.4)));
+}
