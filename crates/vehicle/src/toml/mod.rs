@@ -6,6 +6,7 @@ mod body;
 mod joint;
 mod posture;
 mod tool;
+mod uniform;
 mod vehicle;
 
 pub(crate) use vehicle::read_toml;

@@ -6,6 +6,7 @@ use super::body::{BodyFile, link, outline};
 use super::joint::{JointFile, joint};
 use super::posture::{PostureFile, check_postures, posture};
 use super::tool::{ToolFile, grasp_bounds, tool};
+use super::uniform::outline_of_uniform;
 use crate::assemble::{AssembledRobot, assemble};
 use crate::assembly::{AssemblyJoint, Link};
 use crate::check::check_equipment;
@@ -168,6 +169,12 @@ fn forget_made_up_names(links: &mut [Link], joints: &mut [AssemblyJoint]) {
 fn outlines(reading: &mut Reading<'_>, file: &VehicleFile) -> Vec<(String, Pose<f64>, ShapeKind)> {
     let mut outlines = vec![];
     for (i, body) in file.body.iter().enumerate() {
+        if let Some(uniform) = body.uniform.as_ref().filter(|_| body.shape.is_empty()) {
+            // What is wrong with it was told with the mass properties.
+            let mut unheard = Reading::new(reading.document);
+            let drawn = outline_of_uniform(&mut unheard, at!["body", i], body, uniform);
+            outlines.extend(drawn.map(|(X_LS, kind)| (body.name.clone(), X_LS, kind)));
+        }
         for (k, shape) in body.shape.iter().enumerate() {
             let drawn = outline(reading, at!["body", i, "shape", k], body, shape);
             outlines.extend(drawn.map(|(X_LS, kind)| (body.name.clone(), X_LS, kind)));
