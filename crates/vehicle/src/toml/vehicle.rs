@@ -36,6 +36,10 @@ pub(crate) struct VehicleFile {
     pub(crate) summary: String,
     /// Where all those numbers come from that have no source of their own.
     pub(crate) source: Option<SourceFile>,
+    /// What no document says of the real vehicle, one thing an item: for whoever reads the numbers.
+    #[serde(default)]
+    #[schemars(inner(length(min = 1)))]
+    pub(crate) not_public: Vec<String>,
     /// Rigid bodies, each with a frame of its own.
     pub(crate) body: Vec<BodyFile>,
     /// Joints, each given by the pose of the child's frame on the parent.
@@ -129,6 +133,7 @@ fn vehicle_of(
         sensors,
         shapes,
         provenance: sources.rows,
+        not_public: file.not_public,
         remarks: found.into_complaints(),
     })
 }

@@ -96,6 +96,7 @@ fn vehicle(name: String, from: AssembledRobot, outlines: &[Outline], found: Find
             grade: Grade::Assumed,
             source: "URDF without provenance".into(),
         }],
+        not_public: Vec::new(),
         remarks: found.into_complaints(),
     }
 }
