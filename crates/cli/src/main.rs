@@ -17,6 +17,7 @@ mod run;
 mod schema;
 mod size;
 mod sweep;
+mod vehicle_page;
 mod vehicles;
 
 use clap::{Parser, Subcommand};
