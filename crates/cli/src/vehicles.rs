@@ -6,7 +6,7 @@ use crate::vehicle_page::{VehicleFacts, page, wrapped};
 use clap::Args;
 use serde_json::json;
 use std::process::ExitCode;
-use wrasse_vehicle::{NoVehicle, Vehicle, catalogue, find_vehicle};
+use wrasse_vehicle::{CatalogueEntry, NoVehicle, Vehicle, catalogue, find_vehicle};
 
 /// List the vehicles that come with wrasse, or show one of them.
 ///
@@ -75,7 +75,8 @@ const LEGEND: &str = "Servicers have joints; free-flyers have actuators and no j
 const WIDTH: usize = 80;
 
 fn list(as_json: bool) -> Result<ExitCode, Failure> {
-    let vehicles: Vec<Vehicle> = catalogue().iter().map(|e| e.read()).collect::<Result<_, _>>()?;
+    let vehicles: Vec<Vehicle> =
+        catalogue().iter().map(CatalogueEntry::read).collect::<Result<_, _>>()?;
     if as_json {
         let entry = |vehicle: &Vehicle| {
             json!({
