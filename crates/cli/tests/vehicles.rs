@@ -71,7 +71,7 @@ fn a_vehicle_is_shown_with_its_parts_its_sources_by_grade_and_what_is_not_public
         "\npostures\n  bent",
         "ideal: 1032 N·m and 19520 N·m·s about each axis",
         "\npublished\n  all else: ",
-        "\nderived\n  attitude_actuator: ",
+        "\nderived\n  joint.wrist_roll.position_m: part of the published 1.228 m",
         "\nassumed\n",
         "body.foot.mass_kg, body.shoulder.mass_kg",
         "\nnot public\n  masses, centres of mass and inertias of the links",
