@@ -23,6 +23,7 @@ mod schema;
 mod settings;
 mod size;
 mod sweep;
+mod vehicle_page;
 mod vehicles;
 
 use clap::{Parser, Subcommand};

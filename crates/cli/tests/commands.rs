@@ -145,7 +145,7 @@ fn results_that_a_folder_of_the_same_name_keeps_out_end_with_2_and_leave_nothing
 fn a_vehicle_file_is_seen_from_the_folder_of_its_mission() {
     let folder = Folder::new();
     std::fs::create_dir(folder.path().join("mine")).unwrap();
-    folder.put("mine/bus.toml", &folder.wrasse(&["vehicles", "planar-two-link"]).out);
+    folder.put("mine/bus.toml", &folder.wrasse(&["vehicles", "planar-two-link", "--file"]).out);
     folder.put("mine/mission.toml", &SMALL.replace("planar-two-link", "bus.toml"));
     let said = folder.wrasse(&["run", "mine/mission.toml", "--json"]);
     assert_eq!(said.code, 0, "{}", said.err);
@@ -199,59 +199,6 @@ fn an_error_estimate_is_in_the_summary_when_it_is_asked_for() {
     };
     assert_eq!(estimate(&[]), 0);
     assert_eq!(estimate(&["--error-estimate"]), 5);
-}
-
-#[test]
-fn the_catalogue_is_listed_in_columns_that_line_up() {
-    let folder = Folder::new();
-    let said = folder.wrasse(&["vehicles"]);
-    assert_eq!((said.code, said.err.as_str()), (0, ""));
-    let lines: Vec<&str> = said.out.lines().collect();
-    let ends = ["joints", "mass (kg)"].map(|head| lines[0].find(head).unwrap() + head.len());
-    for line in &lines[1..] {
-        for (from, end) in [(0, ends[0]), (ends[0], ends[1])] {
-            let number = line[from..end].split_whitespace().last().unwrap();
-            assert!(number.parse::<f64>().is_ok() && line[..end].ends_with(number), "{line}");
-            assert!(line[end..].starts_with(' '), "{line}");
-        }
-        assert!(line[ends[1]..].trim().len() > 10, "no summary: {line}");
-    }
-    let mut listed: Vec<_> =
-        lines[1..].iter().map(|l| l.split_whitespace().next().unwrap().to_owned()).collect();
-    listed.sort();
-    let mut there: Vec<_> = files("vehicles", &["toml", "urdf"])
-        .iter()
-        .map(|file| file.file_stem().unwrap().to_str().unwrap().to_owned())
-        .collect();
-    there.sort();
-    assert_eq!(listed, there);
-}
-
-#[test]
-fn a_vehicle_of_the_catalogue_is_printed_as_a_file_that_check_accepts() {
-    let folder = Folder::new();
-    for file in files("vehicles", &["toml", "urdf"]) {
-        let name = file.file_stem().unwrap().to_str().unwrap();
-        let said = folder.wrasse(&["vehicles", name]);
-        assert_eq!((said.code, said.err.as_str()), (0, ""));
-        let mine = format!("mine.{}", file.extension().unwrap().to_str().unwrap());
-        folder.put(&mine, &said.out);
-        let said = folder.wrasse(&["check", &mine]);
-        assert_eq!(said.code, 0, "{name}: {}", said.err);
-        assert!(said.out.starts_with(&format!("{mine}: vehicle ")), "{}", said.out);
-    }
-}
-
-#[test]
-fn a_vehicle_that_is_not_in_the_catalogue_is_answered_with_those_that_are() {
-    let folder = Folder::new();
-    let said = folder.wrasse(&["vehicles", "atlas-klass"]);
-    assert_eq!((said.code, said.out.as_str()), (2, ""));
-    assert!(
-        said.err.contains("\"atlas-klass\"") && said.err.contains("atlas-class"),
-        "{}",
-        said.err
-    );
 }
 
 #[test]
@@ -362,6 +309,8 @@ fn odd_arguments_are_refused_with_2_and_never_with_a_panic() {
         &["vehicles", ""],
         &["vehicles", "a", "b"],
         &["vehicles", "\u{1F420}"],
+        &["vehicles", "--file"],
+        &["vehicles", "etsvii", "--file", "--json"],
         &["eval"],
         &["eval", "atlas-class"],
         &["eval", "", "--states", ""],

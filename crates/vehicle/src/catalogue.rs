@@ -27,14 +27,31 @@ macro_rules! entry {
     };
 }
 
-static CATALOGUE: [CatalogueEntry; 7] = [
+/// Servicers with arms, free-flyers without, clients.
+static CATALOGUE: [CatalogueEntry; 23] = [
     entry!("atlas-class", "toml"),
     entry!("atlas-class-two-arms", "toml"),
+    entry!("caesar-class", "toml"),
     entry!("etsvii", "toml"),
+    entry!("etsvii-repaired", "toml"),
+    entry!("fts-class", "toml"),
+    entry!("orbital-express-class", "toml"),
+    entry!("ranger-class", "toml"),
     entry!("shuttle-rms", "toml"),
     entry!("ssrms", "toml"),
+    entry!("dextre-class", "toml"),
+    entry!("era-class", "toml"),
+    entry!("jemrms-class", "toml"),
     entry!("planar-two-link", "toml"),
     entry!("example-arm", "urdf"),
+    entry!("aercam-sprint-class", "toml"),
+    entry!("omv-class", "toml"),
+    entry!("envisat-class", "toml"),
+    entry!("etsvii-target", "toml"),
+    entry!("hubble-class", "toml"),
+    entry!("nextsat-class", "toml"),
+    entry!("oru-module", "toml"),
+    entry!("solar-max-class", "toml"),
 ];
 
 /// All vehicles of the catalogue.

@@ -17,6 +17,8 @@ use wrasse_hardware::{AttitudeActuator, Sensors};
 pub(crate) struct Model {
     pub(crate) name: String,
     pub(crate) summary: String,
+    /// What no document says of the real vehicle.
+    pub(crate) not_public: Vec<String>,
     /// Links and joints, its own and those that it includes.
     pub(crate) assembly: Assembly,
     pub(crate) attitude_actuator: Option<AttitudeActuator<f64>>,
@@ -38,6 +40,7 @@ impl Model {
             name,
             summary,
             assembly,
+            not_public: vec![],
             attitude_actuator: None,
             equipment: None,
             sensors: Sensors::default(),
@@ -133,6 +136,7 @@ impl Model {
             sensors: self.sensors,
             shapes,
             provenance: assembly.provenance,
+            not_public: self.not_public,
             remarks,
         }
     }

@@ -53,6 +53,8 @@ pub struct Vehicle {
     pub shapes: Vec<Shape>,
     /// Where its numbers come from, in the order of the file; those of the equipment say it themselves.
     pub provenance: Vec<Provenance>,
+    /// What no document says of the real vehicle, as its file lists it.
+    pub not_public: Vec<String>,
     /// Warnings and notes of the reading: implausible values, tags not used.
     pub remarks: Vec<Complaint>,
 }

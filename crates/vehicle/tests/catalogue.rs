@@ -47,7 +47,7 @@ fn every_vehicle_of_the_catalogue_is_read_without_error() {
         let vehicle = vehicle(entry.name);
         let errors = vehicle.remarks.iter().filter(|r| r.severity == Severity::Error).count();
         assert_eq!(errors, 0, "{}", entry.name);
-        assert!(vehicle.robot.joint_count() > 0);
+        assert_eq!(vehicle.name, entry.name);
     }
 }
 

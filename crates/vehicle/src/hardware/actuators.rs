@@ -9,6 +9,7 @@ use super::thruster::ThrusterFile;
 use super::thruster_set::ThrusterSetFile;
 use super::unit::{Head, MountedUnit, UnitEntry, UnitFile};
 use super::wheel::WheelFile;
+use super::wheel_array::WheelArrayFile;
 use crate::check::check_spanning;
 use crate::equipment::Equipment;
 use crate::table::{Reading, SourceFile, Sources, under};
@@ -30,9 +31,12 @@ pub struct EquipmentFile {
     /// What the set is called in tables; made from its units if not given.
     #[schemars(length(min = 1))]
     pub(crate) name: Option<String>,
-    /// Reaction wheels.
+    /// Reaction wheels, one by one.
     #[serde(default)]
     pub(crate) wheel: Vec<WheelFile>,
+    /// Arrays of equal reaction wheels; they come after those of `wheel`.
+    #[serde(default)]
+    pub(crate) wheel_array: Vec<WheelArrayFile>,
     /// Control moment gyros, one by one.
     #[serde(default)]
     #[schemars(extend("x-formerly" = ["gyro"]))]
@@ -157,9 +161,11 @@ impl Units {
         let mut all = Self::default();
         let mut context = (reading, sources, models, path);
         all.wheels = all.read(&mut context, &file.wheel);
+        let wheels = all.read(&mut context, &file.wheel_array);
+        all.wheels.extend(wheels);
         all.cmgs = all.read(&mut context, &file.cmg);
-        let of_arrays = all.read(&mut context, &file.cmg_array);
-        all.cmgs.extend(of_arrays);
+        let cmgs = all.read(&mut context, &file.cmg_array);
+        all.cmgs.extend(cmgs);
         all.thrusters = all.read(&mut context, &file.thruster);
         let of_sets = all.read(&mut context, &file.thruster_set);
         all.thrusters.extend(of_sets);

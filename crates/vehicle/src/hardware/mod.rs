@@ -15,6 +15,7 @@ mod thruster;
 mod thruster_set;
 mod unit;
 mod wheel;
+mod wheel_array;
 
 pub(crate) use actuators::equipment;
 pub use actuators::{EquipmentFile, read_equipment};

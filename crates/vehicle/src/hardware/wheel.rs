@@ -9,6 +9,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use wrasse_document::Step;
 use wrasse_hardware::ReactionWheel;
+use wrasse_spatial::Vec3;
 
 /// A reaction wheel: of a model of the catalogue, or by its own numbers, or a model with some numbers
 /// replaced.
@@ -34,7 +35,7 @@ pub(crate) struct WheelFile {
 }
 
 /// One turn in a minute (rad/s).
-const RPM: f64 = core::f64::consts::TAU / 60.0;
+pub(crate) const RPM: f64 = core::f64::consts::TAU / 60.0;
 
 impl UnitFile for WheelFile {
     const KEY: &'static str = "wheel";
@@ -52,27 +53,40 @@ impl UnitFile for WheelFile {
         let of = format!("wheel '{}'", self.name);
         let axis = direction(reading, path, &of, "axis", self.axis);
         let numbers = models.numbers(reading, path, &of, self.model.as_deref(), self.numbers)?;
-        let (inertia, speed_limit) = rotor(reading, path, &of, &numbers);
-        let due = [
-            ("torque_limit_nm", numbers.torque_limit_nm),
-            ("speed_limit_rpm", speed_limit),
-            ("inertia_kgm2", inertia),
-        ];
-        check_there(reading, path, &of, &due);
-        let unit = ReactionWheel {
-            axis_B: axis?,
-            inertia: inertia?,
-            torque_limit: numbers.torque_limit_nm?,
-            speed_limit: speed_limit?,
-            coulomb: numbers.coulomb_friction_nm.unwrap_or(0.0),
-            viscous: numbers.viscous_friction_nms.unwrap_or(0.0),
-            torque_step: numbers.torque_step_nm.unwrap_or(0.0),
-        };
-        check_motion(reading, path, &of, &unit, self);
+        let unit = ReactionWheel { axis_B: axis?, ..wheel(reading, path, &of, &numbers)? };
+        let speed = self.speed_rpm.unwrap_or(0.0);
+        check_speed(reading, path, &of, &unit, speed);
         let mass_power = (numbers.mass_kg, numbers.power_w);
         let entry = UnitEntry::of(reading, path, self, "wheel", mass_power);
-        Some(vec![MountedUnit { unit, start: self.speed_rpm.unwrap_or(0.0) * RPM, entry }])
+        Some(vec![MountedUnit { unit, start: speed * RPM, entry }])
     }
+}
+
+/// What a wheel can do, its axis left open; complains of what is missing or cannot be.
+pub(crate) fn wheel(
+    reading: &mut Reading<'_>,
+    path: &[Step<'_>],
+    of: &str,
+    numbers: &WheelNumbers,
+) -> Option<ReactionWheel<f64>> {
+    let (inertia, speed_limit) = rotor(reading, path, of, numbers);
+    let due = [
+        ("torque_limit_nm", numbers.torque_limit_nm),
+        ("speed_limit_rpm", speed_limit),
+        ("inertia_kgm2", inertia),
+    ];
+    check_there(reading, path, of, &due);
+    let wheel = ReactionWheel {
+        axis_B: Vec3::zero(),
+        inertia: inertia?,
+        torque_limit: numbers.torque_limit_nm?,
+        speed_limit: speed_limit?,
+        coulomb: numbers.coulomb_friction_nm.unwrap_or(0.0),
+        viscous: numbers.viscous_friction_nms.unwrap_or(0.0),
+        torque_step: numbers.torque_step_nm.unwrap_or(0.0),
+    };
+    check_motor(reading, path, of, &wheel);
+    Some(wheel)
 }
 
 /// Inertia (kg·m²) and largest speed (rad/s): each follows from the other and the momentum.
@@ -104,14 +118,8 @@ fn rotor(
     }
 }
 
-/// Complains of a wheel that friction holds, or that starts faster than it can turn.
-fn check_motion(
-    reading: &mut Reading<'_>,
-    path: &[Step<'_>],
-    of: &str,
-    wheel: &ReactionWheel<f64>,
-    file: &WheelFile,
-) {
+/// Complains of a wheel that friction holds, or whose motor cannot be told anything.
+fn check_motor(reading: &mut Reading<'_>, path: &[Step<'_>], of: &str, wheel: &ReactionWheel<f64>) {
     if wheel.coulomb >= wheel.torque_limit {
         let message = format!(
             "{of} never turns: its Coulomb friction of {} N·m holds against its motor's {} N·m",
@@ -129,11 +137,19 @@ fn check_motion(
         );
         reading.error(&under(path, "torque_step_nm"), message, "this step", "");
     }
-    if let Some(rpm) = file.speed_rpm.filter(|rpm| rpm.abs() * RPM > wheel.speed_limit) {
-        let message = format!(
-            "{of} starts at {rpm} rpm, beyond its {} rpm",
-            figures(wheel.speed_limit / RPM)
-        );
+}
+
+/// Complains of a wheel that starts faster than it can turn.
+pub(crate) fn check_speed(
+    reading: &mut Reading<'_>,
+    path: &[Step<'_>],
+    of: &str,
+    wheel: &ReactionWheel<f64>,
+    rpm: f64,
+) {
+    if rpm.abs() * RPM > wheel.speed_limit {
+        let most = figures(wheel.speed_limit / RPM);
+        let message = format!("{of} starts at {rpm} rpm, beyond its {most} rpm");
         reading.error(&under(path, "speed_rpm"), message, "too fast", "");
     }
 }

@@ -32,8 +32,8 @@ pub(crate) struct ProvenanceFile {
 
 /// Keys of a block that hold numbers about the vehicle.
 #[rustfmt::skip]
-const NUMBERS: [&str; 62] = [
-    "mass_kg", "centre_of_mass_m", "inertia_kgm2", "position_m", "orientation", "axis",
+const NUMBERS: [&str; 63] = [
+    "mass_kg", "centre_of_mass_m", "inertia_kgm2", "uniform", "position_m", "orientation", "axis",
     "travel_deg", "travel_m", "rate_deg_s", "rate_m_s", "effort_nm", "effort_n", "mount", "row",
     "joints_deg", "joints_m", "torque_limit_nm", "momentum_limit_nms", "speed_limit_rpm",
     "speed_rpm", "momentum_nms", "coulomb_friction_nm", "viscous_friction_nms", "torque_step_nm",

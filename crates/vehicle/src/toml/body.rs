@@ -1,5 +1,6 @@
 //! The tables `[[body]]`: mass properties about a named point in named axes, and outlines.
 
+use super::uniform::{UniformFile, uniform_matter};
 use crate::assembly::{Acceptance, Link, Matter, Rounding};
 use crate::rotation::from_rpy_deg;
 use crate::table::{OrientationFile, ProvenanceFile, QuaternionFile, Reading, under};
@@ -22,10 +23,13 @@ pub(crate) struct BodyFile {
     pub(crate) centre_of_mass_m: Option<[f64; 3]>,
     /// Rotational inertia about a named point in named axes (kg·m²).
     pub(crate) inertia_kgm2: Option<InertiaFile>,
+    /// A shape of even density, in place of centre of mass and inertia.
+    pub(crate) uniform: Option<UniformFile>,
     /// Why mass properties that no rigid body can have are to be used all the same.
     #[schemars(length(min = 1))]
     pub(crate) accept_nonphysical: Option<String>,
-    /// What to draw. It has no effect on the motion; tool and loads must stay outside of the base's.
+    /// What to draw; that of `uniform` if not given. It has no effect on the motion; tool and loads
+    /// must stay outside of the base's.
     #[serde(default)]
     pub(crate) shape: Vec<ShapeFile>,
     /// Where these numbers come from.
@@ -108,7 +112,20 @@ pub(crate) struct CylinderFile {
 
 /// A body's link.
 pub(crate) fn link(reading: &mut Reading<'_>, path: &[Step<'_>], body: &BodyFile) -> Link {
-    let matter = match (body.mass_kg, body.centre_of_mass_m, &body.inertia_kgm2) {
+    let matter = match &body.uniform {
+        Some(uniform) => Some(uniform_matter(reading, path, body, uniform)),
+        None => matter_by_numbers(reading, path, body),
+    };
+    Link { name: body.name.clone(), at: reading.below(path, "name"), matter }
+}
+
+/// Mass properties by their numbers; none of a mere frame.
+fn matter_by_numbers(
+    reading: &mut Reading<'_>,
+    path: &[Step<'_>],
+    body: &BodyFile,
+) -> Option<Matter> {
+    match (body.mass_kg, body.centre_of_mass_m, &body.inertia_kgm2) {
         (Some(mass), Some(p_cm), Some(inertia)) => {
             let p_cm = Vec3::from_array(p_cm);
             let inertia = central(reading, path, mass, p_cm, inertia);
@@ -127,8 +144,7 @@ pub(crate) fn link(reading: &mut Reading<'_>, path: &[Step<'_>], body: &BodyFile
             };
             Some(matter(reading, path, body, mass, p_cm, inertia))
         }
-    };
-    Link { name: body.name.clone(), at: reading.below(path, "name"), matter }
+    }
 }
 
 fn matter(
@@ -146,11 +162,13 @@ fn matter(
         inertia,
         inertia_at: reading.below(path, "inertia_kgm2"),
         rounding: rounding(reading, &under(path, "inertia_kgm2")),
-        accept_nonphysical: body
-            .accept_nonphysical
-            .clone()
-            .map(|reason| Acceptance { reason, of_this: true }),
+        accept_nonphysical: acceptance(body),
     }
+}
+
+/// The reason of a body for mass properties that cannot be.
+pub(super) fn acceptance(body: &BodyFile) -> Option<Acceptance> {
+    body.accept_nonphysical.clone().map(|reason| Acceptance { reason, of_this: true })
 }
 
 /// How far the tensor at a path may be from what was meant, by the digits of its elements.
@@ -176,7 +194,8 @@ fn complain_of_parts(reading: &mut Reading<'_>, path: &[Step<'_>], body: &BodyFi
     };
     let has = if parts.iter().any(|(_, is)| *is) { named(true) } else { "no mass".into() };
     let message = format!("body '{}' has {has}, but not {}", body.name, named(false));
-    let help = "a body has all three; a mere frame has none, and accepts nothing";
+    let help =
+        "a body has all three, or a mass and `uniform`; a mere frame has none, and accepts nothing";
     reading.error(path, message, "mass properties are not complete", help);
 }
 
@@ -212,28 +231,41 @@ pub(crate) fn outline(
     body: &BodyFile,
     shape: &ShapeFile,
 ) -> Option<(Pose<f64>, ShapeKind)> {
+    let of = format!("a shape of '{}'", body.name);
+    let kind = one_kind(reading, path, &of, (shape.box_m, shape.cylinder, shape.sphere_radius_m))?;
+    let of_uniform = || body.uniform.as_ref()?.position_m;
+    let middle = shape.position_m.or(body.centre_of_mass_m).or_else(of_uniform).unwrap_or_default();
+    let X_LS: Pose<f64> = reading.pose(path, middle, shape.orientation.as_ref());
+    Some((X_LS, kind))
+}
+
+/// The one outline that a table gives; complains if it is none or several, or has no size.
+pub(crate) fn one_kind(
+    reading: &mut Reading<'_>,
+    path: &[Step<'_>],
+    of: &str,
+    (edges, cylinder, radius): (Option<[f64; 3]>, Option<CylinderFile>, Option<f64>),
+) -> Option<ShapeKind> {
     let kinds: Vec<_> = [
-        shape.box_m.map(|edges| ShapeKind::Box(Vec3::from_array(edges))),
-        shape.cylinder.map(|c| ShapeKind::Cylinder { radius: c.radius_m, length: c.length_m }),
-        shape.sphere_radius_m.map(ShapeKind::Sphere),
+        edges.map(|edges| ShapeKind::Box(Vec3::from_array(edges))),
+        cylinder.map(|c| ShapeKind::Cylinder { radius: c.radius_m, length: c.length_m }),
+        radius.map(ShapeKind::Sphere),
     ]
     .into_iter()
     .flatten()
     .collect();
     let [kind] = kinds[..] else {
-        let message =
-            format!("a shape of '{}' has {} outlines, must have one", body.name, kinds.len());
+        let message = format!("{of} has {} outlines, must have one", kinds.len());
         let help = "give it `box_m`, `cylinder` or `sphere_radius_m`";
         reading.error(path, message, "this shape", help);
         return None;
     };
     if let Some(size) = kind.sizes().iter().find(|size| **size <= 0.0) {
-        let message = format!("a shape of '{}' has a size of {size} m", body.name);
+        let message = format!("{of} has a size of {size} m");
         reading.error(path, message, "this shape", "sizes are positive");
+        return None;
     }
-    let middle = shape.position_m.or(body.centre_of_mass_m).unwrap_or_default();
-    let X_LS: Pose<f64> = reading.pose(path, middle, shape.orientation.as_ref());
-    Some((X_LS, kind))
+    Some(kind)
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ mod include;
 mod joint;
 mod posture;
 mod tool;
+mod uniform;
 mod vehicle;
 
 pub(crate) use include::{fix_joints, said_of_fix};

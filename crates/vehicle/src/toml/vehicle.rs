@@ -7,6 +7,7 @@ use super::include::{IncludeFile, include, mount};
 use super::joint::{JointFile, joint};
 use super::posture::{PostureFile, check_postures, given_posture};
 use super::tool::{ToolFile, grasp_bounds, tool};
+use super::uniform::outline_of_uniform;
 use crate::assembly::{Assembly, AssemblyJoint, Link, Outline};
 use crate::equipment::Equipment;
 use crate::findings::SourceFiles;
@@ -34,6 +35,10 @@ pub(crate) struct VehicleFile {
     pub(crate) summary: String,
     /// Where all those numbers come from that have no source of their own.
     pub(crate) source: Option<SourceFile>,
+    /// What no document says of the real vehicle, one thing an item: for whoever reads the numbers.
+    #[serde(default)]
+    #[schemars(inner(length(min = 1)))]
+    pub(crate) not_public: Vec<String>,
     /// Rigid bodies, each with a frame of its own.
     #[serde(default)]
     pub(crate) body: Vec<BodyFile>,
@@ -99,6 +104,7 @@ fn model_of(document: &Document, file: VehicleFile, nesting: &mut Nesting) -> Mo
         attitude_actuator,
         equipment,
         sensors,
+        not_public: file.not_public,
         found: reading.found.into_complaints(),
         ..Model::bare(file.name, file.summary, assembly)
     }
@@ -173,6 +179,13 @@ fn forget_made_up_names(links: &mut [Link], joints: &mut [AssemblyJoint]) {
 fn outlines(reading: &mut Reading<'_>, file: &VehicleFile) -> Vec<Outline> {
     let mut outlines = vec![];
     for (i, body) in file.body.iter().enumerate() {
+        if let Some(uniform) = body.uniform.as_ref().filter(|_| body.shape.is_empty()) {
+            // What is wrong with it was told with the mass properties.
+            let mut unheard = Reading::new(reading.document);
+            let drawn = outline_of_uniform(&mut unheard, at!["body", i], body, uniform);
+            let of_body = |(X_LF, kind)| Outline { link: body.name.clone(), X_LF, kind };
+            outlines.extend(drawn.map(of_body));
+        }
         for (k, shape) in body.shape.iter().enumerate() {
             let drawn = outline(reading, at!["body", i, "shape", k], body, shape);
             let of_body = |(X_LF, kind)| Outline { link: body.name.clone(), X_LF, kind };
