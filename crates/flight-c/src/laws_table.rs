@@ -7,7 +7,7 @@ use wrasse_flight::{
     ArmLaw, Assignment, Axes, BaseControlSetup, Feedforward, JointUse, Measurement,
     NavigationSetup, Setup, Task, Tuning,
 };
-use wrasse_hardware::JointLimits;
+use wrasse_hardware::{JointLimits, List};
 use wrasse_spatial::Quat;
 
 /// The arm's law takes the base for bolted to the ground.
@@ -170,6 +170,7 @@ impl WrasseLaws {
                 attitude_damping: self.attitude_damping,
             },
             position_driven: [false; WRASSE_JOINTS],
+            followers: List::empty(),
             limits: self
                 .effort_limit
                 .map(|limit| JointLimits { effort: effort(limit), ..JointLimits::default() }),

@@ -12,7 +12,7 @@ use wrasse_flight::{
     Measurement, NavigationSetup, PeriodMemory, Setup, Task, Tuning, control_period,
 };
 use wrasse_flight_c::{WRASSE_JOINTS, WrasseFlight};
-use wrasse_hardware::JointLimits;
+use wrasse_hardware::{JointLimits, List};
 use wrasse_spatial::{Mat3, Pose, Quat, SpatialVelocity, vec3};
 use wrasse_testing::largest;
 use wrasse_vehicle::{JOINTS, Vehicle, catalogue};
@@ -53,6 +53,7 @@ fn in_rust() -> ControlOutput<f64, JOINTS> {
         },
         limits: [JointLimits { effort: Some(500.0), ..JointLimits::default() }; JOINTS],
         position_driven: [false; JOINTS],
+        followers: List::empty(),
     };
     let mut state = State::default();
     state.V_NB_B.angular = vec3(0.001, -0.002, 0.0005);

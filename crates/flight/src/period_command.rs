@@ -9,7 +9,7 @@ use crate::setup::Actuation;
 use crate::setup::Setup;
 use crate::tool_wrench::against_tool_wrench;
 use wrasse_dynamics::{Configuration, InverseDynamics, Robot, State};
-use wrasse_hardware::{SetPoint, SetPointMotion};
+use wrasse_hardware::{SetPoint, SetPointMotion, through_gears};
 use wrasse_spatial::{Quat, Real, SpatialForce, SpatialInertia, Vec3};
 
 /// Output of the control law: commands of the arm's drives, and the torque that the base needs.
@@ -67,7 +67,8 @@ impl<T: Real, const J: usize> ControlOutput<T, J> {
         setup: &Setup<T, J>,
         lack_B: Vec3<T>,
     ) -> Self {
-        let change = self.coupling.effort(self.M_B.central().solve(lack_B));
+        let mut change = self.coupling.effort(self.M_B.central().solve(lack_B));
+        through_gears(&setup.followers, &mut change);
         let mut share = T::one();
         for j in robot.joints() {
             self.effort_commanded[j] -= change[j];
@@ -153,6 +154,7 @@ pub(crate) fn control_law<T: Real, const J: usize>(
     for j in robot.joints() {
         effort[j] += with_base[j];
     }
+    through_gears(&setup.followers, &mut effort);
     let (set_points, ahead_force_B) = (*next, ahead_B.force);
     let effort_commanded = effort;
     let rate_share = T::one();

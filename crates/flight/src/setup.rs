@@ -5,7 +5,7 @@ use crate::law::{Feedforward, Measurement, Tuning};
 use crate::navigation::NavigationSetup;
 use crate::resolved_motion::{Assignment, JointUse};
 use wrasse_dynamics::Frame;
-use wrasse_hardware::{AttitudeActuator, JointLimits};
+use wrasse_hardware::{AttitudeActuator, Follower, JointLimits, List};
 use wrasse_spatial::{Pose, Quat, Real};
 
 /// How a flight computer is set up.
@@ -27,6 +27,8 @@ pub struct Setup<T, const J: usize> {
     pub limits: [JointLimits<T>; J],
     /// Joints whose drives follow their set-points whatever it takes: no loop is closed over them here.
     pub position_driven: [bool; J],
+    /// Joints without a drive: what a law asks of one is asked of its leader.
+    pub followers: List<Follower<T>, J>,
 }
 
 impl<const J: usize> Setup<f64, J> {
@@ -58,6 +60,7 @@ impl<const J: usize> Setup<f64, J> {
                 attitude_damping: c(tuning.attitude_damping),
             },
             position_driven: self.position_driven,
+            followers: self.followers.map(Follower::from_f64),
             limits: self.limits.map(|l| JointLimits {
                 travel: l.travel.map(|(lower, upper)| (c(lower), c(upper))),
                 rate: l.rate.map(c),

@@ -6,6 +6,7 @@
 mod actuators;
 mod attitude_actuator;
 mod cmg;
+mod follower;
 mod list;
 mod sensor;
 mod set_point;
@@ -16,6 +17,7 @@ mod wheel;
 pub use actuators::{ActuatorCommand, ActuatorReadings, Actuators};
 pub use attitude_actuator::{AttitudeActuator, AttitudeActuatorLimit};
 pub use cmg::{CMGS, ControlMomentGyro};
+pub use follower::{Follower, follow, follow_rates, through_gears};
 pub use list::List;
 pub use sensor::{RateGyro, Sensors, StarTracker, TrackerReading};
 pub use set_point::{SetPoint, SetPointMotion};

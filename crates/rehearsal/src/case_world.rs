@@ -193,6 +193,9 @@ fn scene_of(case: &Case, stepper: Stepper) -> (Scene<JOINTS>, SystemId) {
         start: case.start,
         held: &held,
     });
+    if !case.vehicle.followers.is_empty() {
+        scene.set_followers(servicer, &case.vehicle.followers);
+    }
     // Prescribed joints keep their rates from the first instant on.
     let (start, period) = (case.start, case.period());
     let drives: [Drive; JOINTS] = core::array::from_fn(|j| {

@@ -9,10 +9,10 @@ use crate::check::{
 use crate::figures::figures;
 use crate::findings::Findings;
 use crate::followers::{followers, settle_followers};
-use crate::vehicle::{Follower, GraspBounds, JOINTS, LinkMatter, NamedFrame, VehicleRobot};
+use crate::vehicle::{GraspBounds, JOINTS, LinkMatter, NamedFrame, VehicleRobot};
 use wrasse_document::Complaint;
 use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, MassProperties};
-use wrasse_hardware::JointLimits;
+use wrasse_hardware::{Follower, JointLimits};
 use wrasse_spatial::Pose;
 
 /// A robot, and the names that belong to it.
@@ -24,7 +24,7 @@ pub(crate) struct AssembledRobot {
     /// Their limits.
     pub(crate) limits: Vec<JointLimits<f64>>,
     /// Those of them that follow another one.
-    pub(crate) followers: Vec<Follower>,
+    pub(crate) followers: Vec<Follower<f64>>,
     /// Every link as a frame of the body that it belongs to, in the order of the file.
     pub(crate) frames: Vec<NamedFrame>,
     /// The matter of each link that has any, in its own frame.

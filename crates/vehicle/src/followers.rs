@@ -3,9 +3,9 @@
 use crate::assembly::AssemblyJoint;
 use crate::figures::figures;
 use crate::findings::Findings;
-use crate::vehicle::Follower;
 use std::collections::BTreeMap;
 use wrasse_document::closest;
+use wrasse_hardware::Follower;
 
 /// The joints, each follower with a leader that has a drive of its own: who follows a follower follows
 /// its leader, and who follows a joint that is fixed is fixed. Complains of leaders that are not there,
@@ -118,7 +118,7 @@ fn warn_of_travel(
 }
 
 /// The followers among the moving joints of a robot, in its order.
-pub(crate) fn followers(moving: &[&AssemblyJoint]) -> Vec<Follower> {
+pub(crate) fn followers(moving: &[&AssemblyJoint]) -> Vec<Follower<f64>> {
     let place = |name: &str| moving.iter().position(|joint| joint.name == name);
     let each = moving.iter().enumerate().filter_map(|(joint, of)| {
         let mimic = of.mimic.as_ref()?;

@@ -40,6 +40,6 @@ pub use read_vehicle::read_vehicle;
 pub use rotation::from_rpy_deg;
 pub use toml::vehicle_schema;
 pub use vehicle::{
-    Follower, GraspBounds, JOINTS, LinkMatter, NamedFrame, Posture, Shape, ShapeKind, Vehicle,
-    VehicleRobot, follow,
+    GraspBounds, JOINTS, LinkMatter, NamedFrame, Posture, Shape, ShapeKind, Vehicle, VehicleRobot,
 };
+pub use wrasse_hardware::{Follower, follow};

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::Arc;
 use wrasse_document::{Complaint, Source};
 use wrasse_dynamics::{Frame, Robot};
-use wrasse_hardware::{AttitudeActuator, JointLimits, Sensors};
+use wrasse_hardware::{AttitudeActuator, Follower, JointLimits, Sensors};
 use wrasse_spatial::{Pose, Sym3, Vec3};
 
 /// Most moving joints a vehicle can have.
@@ -34,7 +34,7 @@ pub struct Vehicle {
     /// Limits of the moving joints, in the robot's order.
     pub limits: Vec<JointLimits<f64>>,
     /// Joints without a drive of their own: each moves as its leader does.
-    pub followers: Vec<Follower>,
+    pub followers: Vec<Follower<f64>>,
     /// The matter of each link that has any.
     pub matter: Vec<LinkMatter>,
     /// Every link, mount and tool by name: fixed links are frames of the body that carries them.
@@ -57,32 +57,6 @@ pub struct Vehicle {
     pub not_public: Vec<String>,
     /// Warnings and notes of the reading: implausible values, tags not used.
     pub remarks: Vec<Complaint>,
-}
-
-/// A joint that follows another one: `q = ratio × q of the leader + offset`.
-///
-/// A gear without play: what the follower takes is taken from the leader, `ratio` times.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Follower {
-    /// Its number.
-    pub joint: usize,
-    /// The number of the joint that it follows, which has a drive of its own.
-    pub leader: usize,
-    /// Travel per travel of the leader (–, rad/m or m/rad), not zero.
-    pub ratio: f64,
-    /// Travel when the leader is at zero (rad or m).
-    pub offset: f64,
-}
-
-/// Puts each follower where its leader has it (rad or m).
-pub fn follow(followers: &[Follower], q: &mut [f64]) {
-    for &Follower { joint, leader, ratio, offset } in followers {
-        if let Some(&at) = q.get(leader)
-            && let Some(place) = q.get_mut(joint)
-        {
-            *place = ratio * at + offset;
-        }
-    }
 }
 
 /// What one link is made of, before it is merged with those fixed to it.

@@ -85,6 +85,10 @@ impl<const J: usize> System<J> {
                 (drive, _) => drive,
             };
         }
+        // A follower has no drive.
+        for follower in &self.followers {
+            self.drives[follower.joint] = Drive::Effort(0.0);
+        }
     }
 
     fn command_effectors(&mut self, told: &PeriodCommand<'_>, cut: &mut Vec<Saturation>) {

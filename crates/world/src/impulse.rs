@@ -1,5 +1,6 @@
 //! Momentum that jumps at an instant: a grasp, a jam, propellant that leaves.
 
+use crate::gears::with_gears;
 use crate::scene::Scene;
 use crate::source::{Booking, Source};
 use crate::system::System;
@@ -46,7 +47,13 @@ impl<const J: usize> System<J> {
             }
         });
         let k = kinematics(&self.robot, &at_rest);
-        let after = driven_dynamics(&k, &drives, self.base.mode(), &momenta);
+        let mut after = driven_dynamics(&k, &drives, self.base.mode(), &momenta);
+        if !self.followers.is_empty() {
+            with_gears(&self.followers, &drives, &mut |drives| {
+                after = driven_dynamics(&k, drives, self.base.mode(), &momenta);
+                after.force.joints
+            });
+        }
         let rates = self.variables.v();
         let n = self.robot.joint_count();
         self.row[rates].copy_from_slice(&after.nudot.joints[..n]);

@@ -13,6 +13,7 @@ mod environment;
 mod events;
 mod failure;
 mod free_body;
+mod gears;
 mod grasp;
 mod impulse;
 mod integrate;

@@ -3,6 +3,7 @@
 use crate::couplings::{Coupled, FrameMotion};
 use crate::effectors::{Load, Stage};
 use crate::environment::Environment;
+use crate::gears::with_gears;
 use crate::scene::{Clock, Scene, SystemId};
 use crate::setup::{BaseAttitude, Drive};
 use crate::source::{Booking, Bookings, Source};
@@ -10,9 +11,10 @@ use crate::system::System;
 use crate::variables::{put_vector, vector};
 use std::mem::take;
 use wrasse_dynamics::{
-    Configuration, Dynamics, ForwardDynamics, Frame, Kinematics, Outside, PerBody, State,
-    accelerate,
+    Configuration, Dynamics, ForwardDynamics, Frame, JointDrive, Kinematics, Outside, PerBody,
+    State, accelerate,
 };
+use wrasse_hardware::through_gears;
 use wrasse_spatial::{Quat, SpatialForce, Vec3, rotation_vector_rate};
 
 /// Places for what the right-hand side works out, used again and again.
@@ -201,8 +203,19 @@ impl<const J: usize> System<J> {
         let mut outside = at.on_bodies.as_ref().map_or_else(Outside::nothing, |on| (&**on).into());
         outside.base += on_base;
         let (nu, drives) = (at.state.velocity(), self.joint_drives(t, &at.on_joints));
-        let mode = self.base.mode();
-        accelerate(&self.robot, &at.configuration, &nu, &drives, mode, outside, &mut at.forward);
+        let (mode, forward) = (self.base.mode(), &mut at.forward);
+        let mut under = |drives: &[JointDrive<f64>; J]| {
+            accelerate(&self.robot, &at.configuration, &nu, drives, mode, outside, forward);
+            forward.found.force.joints
+        };
+        if self.followers.is_empty() {
+            under(&drives);
+        } else {
+            with_gears(&self.followers, &drives, &mut under);
+            // What a follower takes is taken from the drive of its leader.
+            through_gears(&self.followers, &mut at.forward.found.force.joints);
+            through_gears(&self.followers, &mut at.on_joints);
+        }
         self.book_drives(at, booked);
         let (v, found, state) = (&self.variables, &at.forward.found, &at.state);
         let (X_NB, w_NB_B) = (&state.X_NB, state.V_NB_B.angular);

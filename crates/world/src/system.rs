@@ -10,7 +10,7 @@ use wrasse_dynamics::{
     BaseRows, BodyId, Configuration, Frame, JointDrive, MassProperties, Robot, State, configure,
     kinematics, momentum,
 };
-use wrasse_hardware::{AttitudeActuator, JointLimits};
+use wrasse_hardware::{AttitudeActuator, Follower, JointLimits, follow, follow_rates};
 use wrasse_spatial::{Pose, Quat, SpatialForce, SpatialVelocity, Vec3, turned_by};
 
 /// What is held in a grip.
@@ -42,6 +42,8 @@ pub(crate) struct System<const J: usize> {
     /// (kg)
     pub(crate) mass: f64,
     pub(crate) drives: [Drive; J],
+    /// Joints without a drive: each moves as its leader does.
+    pub(crate) followers: Vec<Follower<f64>>,
     /// Torque of the ideal attitude actuator (N·m, base axes).
     pub(crate) actuator_torque_B: Vec3<f64>,
     pub(crate) effectors: Vec<Box<dyn Effector<J>>>,
@@ -83,6 +85,7 @@ impl<const J: usize> System<J> {
             base: setup.base,
             mass: 0.0,
             drives: [Drive::Effort(0.0); J],
+            followers: vec![],
             actuator_torque_B: Vec3::zero(),
             slosh: effectors.iter().position(|e| e.slosh().is_some()),
             effectors,
@@ -203,6 +206,8 @@ impl<const J: usize> System<J> {
                 Drive::Effort(_) => (q[j], v[j]),
             };
         }
+        follow(&self.followers, &mut state.q);
+        follow_rates(&self.followers, &mut state.v);
         state
     }
 
@@ -265,6 +270,7 @@ impl<const J: usize> System<J> {
                 (self.carry[q + j], self.carry[v + j]) = (0.0, 0.0);
             }
         }
+        self.follow_leaders();
     }
 }
 

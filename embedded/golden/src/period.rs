@@ -10,7 +10,7 @@ use wrasse_flight::{
     Measurement, NavigationSetup, PeriodMemory, Setup, Task, Tuning, control_period,
 };
 use wrasse_flight_c::{WrasseBody, WrasseFrame, WrasseLink, frame_from_table, robot_from_tables};
-use wrasse_hardware::JointLimits;
+use wrasse_hardware::{JointLimits, List};
 use wrasse_spatial::{Pose, Quat, Real, Scalar, SpatialVelocity, Vec3};
 
 /// How many states each subject is run on.
@@ -89,6 +89,7 @@ fn setup<T: Real, const J: usize>(law: ArmLaw, tool: Frame<T>) -> Setup<T, J> {
         },
         limits: [JointLimits { effort: Some(c(500.0)), ..JointLimits::default() }; J],
         position_driven: [false; J],
+        followers: List::empty(),
     }
 }
 

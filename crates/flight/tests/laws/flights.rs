@@ -5,7 +5,7 @@ use wrasse_flight::{
     ArmLaw, Assignment, Axes, BadPhase, BaseControlSetup, Command, Feedforward, FlightComputer,
     JointUse, Measurement, NavigationSetup, Phase, Sensed, Setup, Target, Task, Timing, Tuning,
 };
-use wrasse_hardware::{ActuatorReadings, JointLimits};
+use wrasse_hardware::{ActuatorReadings, JointLimits, List};
 use wrasse_spatial::{Pose, Quat, Real, Scalar, SpatialVelocity, Vec3, vec3};
 use wrasse_testing::arms::{atlas_class, cube};
 
@@ -66,6 +66,7 @@ pub(crate) fn setup<T: Scalar>(law: ArmLaw, measurement: Measurement) -> Setup<T
         },
         limits: [JointLimits::default(); 7],
         position_driven: [false; 7],
+        followers: List::empty(),
     }
 }
 

@@ -8,7 +8,7 @@ use wrasse_flight::{
     ArmLaw, ArmReference, Assignment, Axes, BaseControlSetup, ControlOutput, Feedforward, JointUse,
     Measurement, NavigationSetup, PeriodMemory, Setup, Task, Tuning, control_period,
 };
-use wrasse_hardware::JointLimits;
+use wrasse_hardware::{JointLimits, List};
 use wrasse_spatial::{Mat3, Pose, Quat, Real, SpatialMomentum, SpatialVelocity, Sym3, Vec3, vec3};
 
 /// How many states there are.
@@ -100,6 +100,7 @@ pub(crate) fn setup<const J: usize>(law: ArmLaw, tool: Frame<f64>) -> Setup<f64,
         },
         limits: [JointLimits { effort: Some(500.0), ..JointLimits::default() }; J],
         position_driven: [false; J],
+        followers: List::empty(),
     }
 }
 

@@ -16,7 +16,7 @@ use wrasse_flight::{
     ArmLaw, Assignment, Axes, BaseControlSetup, JointUse, Measurement, NavigationSetup, Setup,
     Task, Tuning,
 };
-use wrasse_hardware::JointLimits;
+use wrasse_hardware::{JointLimits, List};
 use wrasse_vehicle::JOINTS;
 
 /// What the arm law takes the base for.
@@ -194,6 +194,7 @@ pub(crate) fn setup(
         tuning: tuning(r, c),
         limits,
         position_driven: [false; JOINTS],
+        followers: List::new(&r.vehicle.followers),
     }
 }
 

@@ -141,5 +141,9 @@ pub(crate) fn torque_joints(r: &mut Reading<'_>, file: &MissionFile) -> [bool; J
             torque[j] = true;
         }
     }
+    // A follower is driven by its leader.
+    for follower in &r.vehicle.followers {
+        torque[follower.joint] = torque[follower.leader];
+    }
     torque
 }

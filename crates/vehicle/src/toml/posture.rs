@@ -3,12 +3,13 @@
 use crate::assemble::AssembledRobot;
 use crate::assembly::AssemblyJoint;
 use crate::table::{Reading, SourceFile};
-use crate::vehicle::{Posture, follow};
+use crate::vehicle::Posture;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use wrasse_document::{Step, at, closest};
 use wrasse_dynamics::JointKind;
+use wrasse_hardware::follow;
 
 /// Named positions of the joints; a joint that is not named is at zero, or at the end of its travel that
 /// is nearest to it.
