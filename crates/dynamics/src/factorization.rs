@@ -115,6 +115,7 @@ impl<T: Real, const J: usize> Factorization<T, J> {
             self.column[j].put(i, column);
             i = i.next();
         }
+        self.column[j][j] += robot.links.rotor[j];
         let held = free.at(j).lt(T::from_f64(0.5));
         self.per_pivot[j] = T::select(held, T::zero(), T::one() / self.column[j][j]);
         let mut i: Group<L> = Group::of(j);

@@ -127,7 +127,7 @@ pub(crate) fn newton_euler<L: Layout, const J: usize>(
         if robot.links.slide {
             tau = tau * robot.links.turns.at(i) + axis.dot(F.force) * robot.links.slides.at(i);
         }
-        force.joints.put(i, tau);
+        force.joints.put(i, tau + robot.links.rotor.at(i) * joints.1.at(i));
     }
 }
 

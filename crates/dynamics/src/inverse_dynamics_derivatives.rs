@@ -377,6 +377,7 @@ impl<T: Real, const J: usize> Bodies<T, J> {
                 M.M_jj[i][j] = M_ij;
                 M.M_jj[j][i] = M_ij;
             }
+            M.M_jj[j][j] += k.robot.links.rotor[j];
         }
     }
 }
@@ -429,6 +430,9 @@ impl<T: Real, const J: usize> InverseDynamicsDerivatives<T, J> {
         bodies.mass_matrix_into(k, &mut self.by_acceleration);
         let forces = bodies.forces(k, nudot, outside);
         self.force = bodies.project(k, &forces);
+        for j in k.robot.joints() {
+            self.force.joints[j] += k.robot.links.rotor[j] * nudot.joints[j];
+        }
         self.differentiate(k, &bodies, &forces);
     }
     /// The derivatives by positions and velocities; that by acceleration is there.

@@ -24,6 +24,8 @@ pub(crate) struct LinkRows<T, const J: usize> {
     pub(crate) turns: [T; J],
     /// 1 where it slides (–).
     pub(crate) slides: [T; J],
+    /// Inertia of the rotor seen from the joint (kg·m² or kg).
+    pub(crate) rotor: [T; J],
     /// `p_PL` at zero travel, in the axes that θ turns (m).
     pub(crate) origin: Vec3<[T; J]>,
     /// Inertia of each link about its origin, in its axes.
@@ -55,6 +57,7 @@ impl<T: Scalar, const J: usize> LinkRows<T, J> {
             theta_zero: none,
             turns: none,
             slides: none,
+            rotor: none,
             origin: Rows::zero_rows(),
             M_L: Rows::zero_rows(),
             composite_mass: none,
@@ -82,6 +85,7 @@ impl<T: Scalar, const J: usize> LinkRows<T, J> {
         self.turns[j] = if turns { T::one() } else { T::zero() };
         self.slides[j] = if turns { T::zero() } else { T::one() };
         self.slide |= !turns;
+        self.rotor[j] = joint.rotor_inertia;
         self.origin.put(j, axes.before_theta(R_PBp * joint.X_PB_zero.translation));
         self.follows[j] = j > 0 && joint.parent == BodyId::Link(j - 1);
     }
@@ -155,6 +159,7 @@ impl<const J: usize> LinkRows<f64, J> {
             theta_zero: row(&self.theta_zero),
             turns: row(&self.turns),
             slides: row(&self.slides),
+            rotor: row(&self.rotor),
             origin: rows(&self.origin),
             M_L: SpatialInertia {
                 mass: row(&self.M_L.mass),

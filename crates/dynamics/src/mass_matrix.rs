@@ -87,6 +87,7 @@ fn lower_row<L: Layout, const J: usize>(
     for i in first.first()..arm.first {
         row[within::<J>(i)] = L::One::zero();
     }
+    row[j] += robot.links.rotor[j];
     if robot.links.forked[j] {
         robot.leave_way_to(j, row);
     }

@@ -45,12 +45,21 @@ pub struct Joint<T> {
     pub X_PB_zero: Pose<T>,
     /// Unit axis, in the axes of the body that it carries (–).
     pub axis_B: Vec3<T>,
+    /// Inertia of the motor's rotor, seen from the joint through its gear (kg·m² or kg). It turns fast
+    /// and along the joint alone: it adds to the diagonal of the mass matrix, and carries no momentum.
+    pub rotor_inertia: T,
 }
 
 impl<T: Real> Joint<T> {
     /// A joint on `parent`, with `X_PB` at zero travel and its axis in B axes (made a unit vector).
     pub fn new(parent: BodyId, kind: JointKind, X_PB_zero: Pose<T>, axis_B: Vec3<T>) -> Self {
-        Self { parent, kind, X_PB_zero, axis_B: axis_B * (T::one() / axis_B.norm()) }
+        let axis_B = axis_B * (T::one() / axis_B.norm());
+        Self { parent, kind, X_PB_zero, axis_B, rotor_inertia: T::zero() }
+    }
+    /// The same with a rotor of this inertia, seen from the joint through its gear (kg·m² or kg).
+    #[must_use]
+    pub fn with_rotor(self, rotor_inertia: T) -> Self {
+        Self { rotor_inertia, ..self }
     }
     /// `X_PB` at travel `q` (rad or m).
     #[inline(always)]
@@ -347,6 +356,7 @@ impl<const J: usize> Robot<f64, J> {
                 kind: j.kind,
                 X_PB_zero: Pose::from_f64(&j.X_PB_zero),
                 axis_B: Vec3::from_f64(j.axis_B),
+                rotor_inertia: T::from_f64(j.rotor_inertia),
             }),
             bodies: PerBody {
                 base: properties(&self.bodies.base),

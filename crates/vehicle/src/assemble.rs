@@ -147,7 +147,8 @@ impl Parts {
         for ((edge, parent, X_PB), matter) in self.moving.iter().zip(&self.matter[1..]) {
             let joint = &joints[edge.joint];
             let Some(kind) = joint.kind else { continue };
-            carried.push((Joint::new(*parent, kind, *X_PB, joint.axis), *matter));
+            let moving = Joint::new(*parent, kind, *X_PB, joint.axis).with_rotor(joint.rotor);
+            carried.push((moving, *matter));
         }
         let robot = match VehicleRobot::new(self.matter[0], &carried) {
             Ok(robot) => robot,

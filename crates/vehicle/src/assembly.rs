@@ -157,6 +157,8 @@ pub(crate) struct AssemblyJoint {
     pub(crate) axis_at: Range<usize>,
     pub(crate) limits: JointLimits<f64>,
     pub(crate) limits_at: Range<usize>,
+    /// Inertia of the motor's rotor, seen from the joint through its gear (kg·m² or kg).
+    pub(crate) rotor: f64,
     /// The joint that it follows, if it has no drive of its own.
     pub(crate) mimic: Option<Mimic>,
 }
@@ -250,6 +252,7 @@ impl AssemblyJoint {
             self.X_PC = joint.X_PB(q);
         }
         self.limits = JointLimits::default();
+        self.rotor = 0.0;
         self.mimic = None;
     }
 }

@@ -189,6 +189,10 @@ fn limits(out: &mut String, joint: &AssemblyJoint, kind: JointKind) {
     if let Some(effort) = effort {
         let _ = writeln!(out, "{} = {}", keys[2], number(effort));
     }
+    if joint.rotor != 0.0 {
+        let unit = if kind == JointKind::Revolute { "kgm2" } else { "kg" };
+        let _ = writeln!(out, "rotor_inertia_{unit} = {}", number(joint.rotor));
+    }
 }
 
 fn posture(

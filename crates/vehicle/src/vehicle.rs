@@ -11,7 +11,7 @@ use wrasse_hardware::{AttitudeActuator, Follower, JointLimits, Sensors};
 use wrasse_spatial::{Pose, Sym3, Vec3};
 
 /// Most moving joints a vehicle can have.
-pub const JOINTS: usize = 56;
+pub const JOINTS: usize = 48;
 
 /// The robot of a vehicle file.
 pub type VehicleRobot = Robot<f64, JOINTS>;

@@ -148,7 +148,6 @@ fn what_is_not_used_is_a_note_and_what_is_doubtful_a_warning() {
     ]);
     each_alone(Severity::Warning, &[
         Mistake("      <freejoint/>\n", "", 9, "bus", "'bus' is fixed to the world, but floats here"),
-        Mistake(r#"axis="0 1 0""#, r#"axis="0 1 0" armature="0.2""#, 16, "0.2", "the armature of 1 joint is not modelled"),
         Mistake(r#"axis="0 1 0""#, r#"axis="0 1 0" actuatorfrcrange="-3 5""#, 16, "-3 5", "read as 3"),
         Mistake(r#"range="-2 2""#, r#"range="-180 180""#, 13, "-180 180", "are the limits in degrees?"),
         Mistake("0.01 0.42 0.425\"/>", "0.01 0.42 0.425\"/><banana/>", 14, "banana", "holds no <banana>: not used"),

@@ -94,16 +94,12 @@ fn several_joints_in_a_body_move_it_one_after_the_other() {
 }
 
 #[test]
-fn an_armature_is_told_of_by_joint_and_left_out() {
+fn an_armature_is_the_rotor_of_its_joint() {
     let vehicle = read("servicer");
-    let warnings: Vec<_> =
-        vehicle.remarks.iter().filter(|r| r.severity == Severity::Warning).collect();
-    let [warning] = &warnings[..] else { panic!("{warnings:#?}") };
-    assert!(warning.message.starts_with("the armature of 5 joints is not modelled"));
-    let help = warning.help.as_deref().expect("a help");
-    assert!(help.ends_with(
-        "left out of left_shoulder, left_elbow, left_wrist, right_shoulder, right_slide"
-    ));
+    assert!(vehicle.remarks.iter().all(|remark| remark.severity != Severity::Warning));
+    let rotors: Vec<f64> =
+        vehicle.robot.joints().map(|j| vehicle.robot.joint(j).rotor_inertia).collect();
+    assert!(rotors.len() == 5 && rotors.iter().all(|rotor| *rotor > 0.0), "{rotors:?}");
 }
 
 #[test]

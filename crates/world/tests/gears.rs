@@ -1,16 +1,16 @@
-//! Joints that follow others: accelerations, momentum, energy, jumps.
+//! Gears: joints that follow others (accelerations, momentum, energy, jumps), and rotors behind them.
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
 mod branched;
 
 use branched::{J, grip, load, moving, robot, world};
 use nalgebra::{SMatrix, SVector};
-use wrasse_dynamics::{State, bias_force, kinematics, mass_matrix};
+use wrasse_dynamics::{BodyId, MassProperties, Robot, State, bias_force, kinematics, mass_matrix};
 use wrasse_hardware::{ActuatorCommand, Follower, SetPoint, SetPointMotion};
 use wrasse_spatial::{SpatialVelocity, Vec3};
 use wrasse_testing::largest;
-use wrasse_world::{BaseAttitude, Drive, FreeBody, GripOffset, Source};
-use wrasse_world_testing::OneSystem;
+use wrasse_world::{BaseAttitude, Drive, Equipment, FreeBody, GripOffset, Source, Stepper};
+use wrasse_world_testing::{OneSystem, OneSystemSetup};
 
 /// The second joint slides as the first turns, the fourth turns against the third.
 fn followers() -> [Follower<f64>; 2] {
@@ -138,4 +138,38 @@ fn rates_that_jump_still_follow() {
     world.update_ledger(&mut ledger);
     let [angular, linear, energy] = ledger.worst;
     assert!(largest([angular, linear, energy]) < 4e-14, "measured 4.1e-15: {:?}", ledger.worst);
+}
+
+/// Rotors behind gears have energy and no momentum: both stay on a coast, and the joints swing slower.
+#[test]
+fn a_coast_with_rotors_keeps_energy_and_momentum() {
+    let bare = robot();
+    let matter = |body| MassProperties {
+        M_F_F: *bare.inertia(body),
+        I_parts_F: *bare.inertia_of_parts(body),
+    };
+    let links: Vec<_> = (0..J)
+        .map(|j| (bare.joint(j).with_rotor([2.0, 5.0, 0.5, 1.0][j]), matter(BodyId::Link(j))))
+        .collect();
+    let geared = Robot::new(matter(BodyId::Base), &links).expect("the same tree");
+    let mut world = OneSystem::new(&OneSystemSetup {
+        robot: &geared,
+        limits: &[],
+        actuator: None,
+        equipment: Equipment::default(),
+        base: BaseAttitude::Free,
+        stepper: Stepper::Fixed { step: 0.01 },
+        start: moving(),
+        held: &[],
+    });
+    let mut ledger = world.open_ledger();
+    let rotors = 0.5 * (0..J).map(|j| [2.0, 5.0, 0.5, 1.0][j] * moving().v[j].powi(2)).sum::<f64>();
+    assert!(ledger.start.energy > rotors, "they have {rotors} J of it");
+    let coast = [Drive::Effort(0.0); J];
+    world.command(&coast, Vec3::zero(), &ActuatorCommand::default(), 2.0);
+    world.advance(2.0).expect("finite");
+    world.update_ledger(&mut ledger);
+    let [angular, linear, energy] = ledger.worst;
+    assert!(angular < 1e-13 && linear < 1e-13, "{angular:e} {linear:e}");
+    assert!(energy < 1e-9, "of the integration: {energy:e}");
 }

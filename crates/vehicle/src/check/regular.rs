@@ -97,11 +97,14 @@ fn holds_in_every_posture(robot: &VehicleRobot) -> bool {
         let joint = robot.joint(j);
         let resists = scaled(robot.inertia(BodyId::Link(j)), length) + added[j + 1];
         let own = motion(joint, false, length);
-        if least_eigenvalue(&resists) < -REGULAR || own.dot(&(resists * own)) < REGULAR {
+        let has_rotor = joint.rotor_inertia > 0.0;
+        let along_joint = own.dot(&(resists * own));
+        if least_eigenvalue(&resists) < -REGULAR || (along_joint < REGULAR && !has_rotor) {
             return false;
         }
         if least_eigenvalue(&resists) > REGULAR {
-            let along = motion(joint, true, length);
+            // A rotor keeps the joint from giving way for nothing: then no motion is left out.
+            let along = motion(joint, true, length) * if has_rotor { 0.0 } else { 1.0 };
             let parent = match joint.parent {
                 BodyId::Base => 0,
                 BodyId::Link(p) => p + 1,

@@ -33,7 +33,6 @@ pub(super) struct Bodies<'c, 'd, 't, 'r> {
     pub(super) is_free: bool,
     pub(super) stands: bool,
     /// Joints with a rotor's inertia, and where the first says so.
-    pub(super) armatures: Vec<(String, Range<usize>)>,
     /// Positions at which joints are where the file puts them, where they are not zero (rad or m).
     pub(super) references: BTreeMap<String, f64>,
     sites: Vec<(Link, AssemblyJoint)>,
@@ -61,7 +60,6 @@ impl<'c, 'd, 't, 'r> Bodies<'c, 'd, 't, 'r> {
             outlines: Vec::new(),
             is_free: false,
             stands: false,
-            armatures: Vec::new(),
             references: BTreeMap::new(),
             sites: Vec::new(),
             bodies: 0,
@@ -145,9 +143,6 @@ impl<'c, 'd, 't, 'r> Bodies<'c, 'd, 't, 'r> {
         }
         let styled = self.styled(placed, &JOINT);
         let joint = self.compiler.joint(&styled, number, &placed.X_BF, self.reading);
-        if let Some((_, at)) = &joint.armature {
-            self.armatures.push((joint.name.clone(), at.clone()));
-        }
         if joint.reference != 0.0 {
             self.references.insert(joint.name.clone(), joint.reference);
         }
@@ -213,6 +208,7 @@ impl<'c, 'd, 't, 'r> Bodies<'c, 'd, 't, 'r> {
                 axis_at: joint.axis_at,
                 limits: joint.limits,
                 limits_at: joint.limits_at,
+                rotor: joint.rotor,
                 mimic: None,
             });
         }
@@ -284,7 +280,7 @@ fn free(joint: &Styled<'_, '_, '_>, number: usize) -> MjcfJoint {
         reference: 0.0,
         limits: JointLimits::default(),
         limits_at: at,
-        armature: None,
+        rotor: 0.0,
     }
 }
 
@@ -307,6 +303,7 @@ fn fixed(
         axis_at: child_at.clone(),
         limits: JointLimits::default(),
         limits_at: child_at.clone(),
+        rotor: 0.0,
         mimic: None,
     }
 }

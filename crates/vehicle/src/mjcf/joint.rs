@@ -69,8 +69,8 @@ pub(super) struct MjcfJoint {
     pub(super) reference: f64,
     pub(super) limits: JointLimits<f64>,
     pub(super) limits_at: Range<usize>,
-    /// Inertia of the rotor, which is not modelled, and where it stands (kg·m² or kg).
-    pub(super) armature: Option<(f64, Range<usize>)>,
+    /// Inertia of the rotor, seen from the joint (kg·m² or kg).
+    pub(super) rotor: f64,
 }
 
 impl MjcfJoint {
@@ -115,7 +115,13 @@ impl Compiler {
             |of: &str| joint.attribute(of).map_or(&joint.own.at, |text: &Text<'_>| &text.at);
         let (axis_at, limits_at) = (place("axis").clone(), place("range").clone());
         let range = self.range(joint, "range", "limited", reading);
-        let armature = reading.number(joint.giver("armature"), "armature");
+        let rotor = reading.number(joint.giver("armature"), "armature").unwrap_or(0.0);
+        let moves = matches!(motion, Motion::Moves(_));
+        if rotor < 0.0 || (rotor != 0.0 && !moves) {
+            let message = format!("an armature of {rotor} on a joint like this is not supported");
+            let help = "an armature is positive, and of a hinge or a slide; leave it out";
+            reading.found.error(place("armature"), message, "not supported", help);
+        }
         MjcfJoint {
             name: name_of(joint, number),
             at,
@@ -131,7 +137,7 @@ impl Compiler {
                 effort: self.effort(joint, reading),
             },
             limits_at,
-            armature: armature.filter(|a| *a != 0.0).map(|a| (a, place("armature").clone())),
+            rotor,
         }
     }
 

@@ -14,7 +14,6 @@ use crate::model::Model;
 use crate::provenance::{Grade, Provenance};
 use crate::xml::{Element, Format, Kind, Reading, tag_at};
 use roxmltree::{Document, Node};
-use std::ops::Range;
 use std::sync::Arc;
 use wrasse_document::{Complaint, Source};
 
@@ -113,7 +112,7 @@ fn assembly<'d>(root: &Element<'d, '_>, reading: &mut Reading<'d>) -> Assembly {
         bodies.read(base);
     }
     let (mut links, mut joints, outlines) = (bodies.links, bodies.joints, bodies.outlines);
-    let (is_free, armatures) = (bodies.is_free, bodies.armatures);
+    let is_free = bodies.is_free;
     follow(&couplings, &mut joints, &bodies.references, bodies.reading);
     if let Some(base) = links.first().filter(|_| bodies.stands) {
         let message = format!("'{}' is fixed to the world, but floats here", base.name);
@@ -121,7 +120,6 @@ fn assembly<'d>(root: &Element<'d, '_>, reading: &mut Reading<'d>) -> Assembly {
         reading.found.warning(&base.at, message, "not the ground", help);
     }
     scale(&mut links, compiler.total_mass);
-    warn_of_armatures(&armatures, reading);
     for section in ["tendon", "actuator"] {
         for node in root.children(section) {
             unused_section(node, section, reading);
@@ -228,32 +226,15 @@ fn scale(links: &mut [Link], total: Option<f64>) {
     }
 }
 
-/// MuJoCo adds a rotor's inertia to the diagonal of the mass matrix, which no rigid body does.
-fn warn_of_armatures(armatures: &[(String, Range<usize>)], reading: &mut Reading<'_>) {
-    let Some((_, first)) = armatures.first() else { return };
-    let names: Vec<_> = armatures.iter().map(|(name, _)| name.as_str()).collect();
-    let what = if names.len() == 1 { "joint" } else { "joints" };
-    let message = format!(
-        "the armature of {} {what} is not modelled: the mass matrix is that of the bodies alone",
-        names.len()
-    );
-    let help = format!(
-        "MuJoCo adds a rotor's inertia to the diagonal of its mass matrix; here it is left out of {}",
-        names.join(", ")
-    );
-    reading.found.warning(first, message, "and the others", &help);
-}
-
-/// Counts a section that is not used; says so aloud where it would change the mass matrix.
+/// Counts a section that is not used; refuses what in it would change the mass matrix.
 fn unused_section(section: Node<'_, '_>, name: &str, reading: &mut Reading<'_>) {
     reading.not_used(format!("<{name}>"), tag_at(section, reading.text));
     let armature = section.descendants().filter_map(|node| node.attribute_node("armature"));
     for written in armature.filter(|written| written.value().trim() != "0") {
-        let message = format!(
-            "the armature of <{name}> is not modelled: the mass matrix is that of the bodies alone"
-        );
-        let help = "MuJoCo adds it to its mass matrix";
-        reading.found.warning(&written.range_value(), message, "not modelled", help);
+        let message = format!("the armature of <{name}> is not modelled");
+        let help =
+            "MuJoCo adds it to its mass matrix; give the armature to a joint, or leave it out";
+        reading.found.error(&written.range_value(), message, "not modelled", help);
     }
 }
 

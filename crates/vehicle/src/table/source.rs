@@ -32,7 +32,7 @@ pub(crate) struct ProvenanceFile {
 
 /// Keys of a block that hold numbers about the vehicle.
 #[rustfmt::skip]
-const NUMBERS: [&str; 63] = [
+const NUMBERS: [&str; 65] = [
     "mass_kg", "centre_of_mass_m", "inertia_kgm2", "uniform", "position_m", "orientation", "axis",
     "travel_deg", "travel_m", "rate_deg_s", "rate_m_s", "effort_nm", "effort_n", "mount", "row",
     "joints_deg", "joints_m", "torque_limit_nm", "momentum_limit_nms", "speed_limit_rpm",
@@ -45,7 +45,7 @@ const NUMBERS: [&str; 63] = [
     "angle_random_walk_deg_sqrt_h", "bias_random_walk_deg_h_sqrt_h", "rate_step_deg_s", "boresight",
     "noise_across_arcsec", "noise_about_arcsec", "rate_hz", "latency_s", "rate_limit_deg_s",
     "encoder_step_deg", "cylinder", "sphere", "density_kg_m3", "damping_ratio", "acceleration_m_s2",
-    "stiffness_nm_rad",
+    "stiffness_nm_rad", "rotor_inertia_kgm2", "rotor_inertia_kg",
 ];
 
 /// How many blocks without source a warning names.

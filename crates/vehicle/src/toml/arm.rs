@@ -4,7 +4,7 @@
 //! frame i is such a frame. In the standard one it is not: there a massless frame, called after the
 //! body with `/joint`, sits on the axis, and the body's own frame is fixed to it at the far end.
 
-use super::joint::{KindFile, LimitsFile, limits, limits_key, moving};
+use super::joint::{KindFile, LimitsFile, limits, limits_key, moving, rotor};
 use crate::assembly::{AssemblyJoint, Link};
 use crate::rotation::{about_x, about_z};
 use crate::table::{OrientationFile, ProvenanceFile, Reading, under};
@@ -159,6 +159,7 @@ fn joint(
         axis_at: reading.at(path),
         limits: limits(reading, path, &row.joint, row.kind, &row.limits),
         limits_at: reading.below(path, limits_key(&row.limits)),
+        rotor: rotor(reading, path, row.kind, &row.limits),
         mimic: None,
     }
 }

@@ -104,6 +104,7 @@ pub(crate) fn mount(
         axis_at: at.clone(),
         limits: JointLimits::default(),
         limits_at: at,
+        rotor: 0.0,
         mimic: None,
     })
 }

@@ -85,6 +85,11 @@ pub(crate) struct LimitsFile {
     pub(crate) effort_nm: Option<f64>,
     /// Largest force of the drive of a joint that slides (N).
     pub(crate) effort_n: Option<f64>,
+    /// Inertia of the rotor of the drive of a joint that turns, seen from the joint: that of the rotor
+    /// times the square of the gear ratio (kg·m²).
+    pub(crate) rotor_inertia_kgm2: Option<f64>,
+    /// The same of a joint that slides: what the drive adds to the mass that slides (kg).
+    pub(crate) rotor_inertia_kg: Option<f64>,
 }
 
 /// How the joint moves; `None` if it does not.
@@ -118,6 +123,7 @@ pub(crate) fn joint(
         axis_at,
         limits: limits(reading, path, &file.name, file.kind, &file.limits),
         limits_at,
+        rotor: rotor(reading, path, file.kind, &file.limits),
         mimic: mimic(reading, path, file),
     }
 }
@@ -171,6 +177,8 @@ fn given(limits: &LimitsFile) -> Vec<&'static str> {
         ("rate_m_s", limits.rate_m_s.is_some()),
         ("effort_nm", limits.effort_nm.is_some()),
         ("effort_n", limits.effort_n.is_some()),
+        ("rotor_inertia_kgm2", limits.rotor_inertia_kgm2.is_some()),
+        ("rotor_inertia_kg", limits.rotor_inertia_kg.is_some()),
     ];
     keys.into_iter().filter(|(_, there)| *there).map(|(key, _)| key).collect()
 }
@@ -185,10 +193,14 @@ pub(crate) fn limits(
 ) -> JointLimits<f64> {
     let (does, allowed, travel): (_, &[&str], _) = match kind {
         KindFile::Revolute => {
-            ("turns", &["travel_deg", "rate_deg_s", "effort_nm"], Some("travel_deg"))
+            ("turns", &["travel_deg", "rate_deg_s", "effort_nm", TURNING_ROTOR], Some("travel_deg"))
         }
-        KindFile::Continuous => ("turns without end", &["rate_deg_s", "effort_nm"], None),
-        KindFile::Prismatic => ("slides", &["travel_m", "rate_m_s", "effort_n"], Some("travel_m")),
+        KindFile::Continuous => {
+            ("turns without end", &["rate_deg_s", "effort_nm", TURNING_ROTOR], None)
+        }
+        KindFile::Prismatic => {
+            ("slides", &["travel_m", "rate_m_s", "effort_n", SLIDING_ROTOR], Some("travel_m"))
+        }
         KindFile::Fixed => ("is fixed", &[], None),
     };
     for key in given(file).into_iter().filter(|key| !allowed.contains(key)) {
@@ -232,6 +244,29 @@ pub(crate) fn limits(
         rate,
         effort,
     }
+}
+
+/// Keys of the rotor's inertia.
+const TURNING_ROTOR: &str = "rotor_inertia_kgm2";
+const SLIDING_ROTOR: &str = "rotor_inertia_kg";
+
+/// Inertia of the rotor, seen from the joint (kg·m² or kg); zero if none is given.
+pub(crate) fn rotor(
+    reading: &mut Reading<'_>,
+    path: &[Step<'_>],
+    kind: KindFile,
+    file: &LimitsFile,
+) -> f64 {
+    let (key, given) = match moving(kind) {
+        Some(JointKind::Prismatic) => (SLIDING_ROTOR, file.rotor_inertia_kg),
+        _ => (TURNING_ROTOR, file.rotor_inertia_kgm2),
+    };
+    let inertia = given.unwrap_or(0.0);
+    if inertia < 0.0 {
+        let message = format!("`{key}` must not be negative, found {inertia}");
+        reading.error(&under(path, key), message, "this inertia", "leave out the sign");
+    }
+    inertia
 }
 
 /// The ends of a travel, lower first; complains in the unit of the file if they are not.

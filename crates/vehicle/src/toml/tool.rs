@@ -74,6 +74,7 @@ pub(crate) fn tool(
         axis_at: at.clone(),
         limits: JointLimits::default(),
         limits_at: at.clone(),
+        rotor: 0.0,
         mimic: None,
     };
     (Link { name: file.name.clone(), at, matter: None }, mount)

@@ -91,6 +91,7 @@ impl Reading<'_> {
             axis_at,
             limits,
             limits_at,
+            rotor: 0.0,
             mimic,
         };
         UrdfJoint { joint, kind, kind_at }
