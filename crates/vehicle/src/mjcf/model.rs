@@ -112,7 +112,8 @@ fn assembly<'d>(root: &Element<'d, '_>, reading: &mut Reading<'d>) -> Assembly {
     if let Some(base) = base {
         bodies.read(base);
     }
-    let (mut links, mut joints, outlines) = (bodies.links, bodies.joints, bodies.outlines);
+    let (mut links, mut joints) = (bodies.links, bodies.joints);
+    let (outlines, partly_drawn) = (bodies.outlines, bodies.partly_drawn);
     let (is_free, armatures) = (bodies.is_free, bodies.armatures);
     follow(&couplings, &mut joints, &bodies.references, bodies.reading);
     if let Some(base) = links.first().filter(|_| bodies.stands) {
@@ -141,6 +142,7 @@ fn assembly<'d>(root: &Element<'d, '_>, reading: &mut Reading<'d>) -> Assembly {
         links,
         joints,
         outlines,
+        partly_drawn,
         postures,
         provenance: vec![provenance],
         ..Assembly::default()
