@@ -114,10 +114,10 @@ fn more_spread_than_the_shape_holds_is_told() {
     }
 }
 
-/// The farthest corner of the cube is 0.866 m from its middle, times 1.25: 1.083 m.
+/// The farthest corner of the cube is 0.866 m from its middle, times 1.5: 1.299 m.
 #[test]
 fn a_gyration_beyond_the_farthest_corner_is_a_plain_warning() {
-    for (gyration, warnings) in [(1.07_f64, 0), (1.09, 1)] {
+    for (gyration, warnings) in [(1.29_f64, 0), (1.31, 1)] {
         let part = Part { spread: [0.5 * gyration * gyration; 3], ..cube() };
         assert_eq!(part.plain(), warnings, "{gyration}");
     }
@@ -207,8 +207,8 @@ fn a_mass_that_its_volume_contradicts_is_told() {
     ] {
         assert_eq!(Part { mass, ..cube() }.kinds(), told, "{mass}");
     }
-    // Without a shape its ellipsoid of inertia has 0.4 m³.
-    for (mass, told) in [(1.8, &[FindingKind::Density][..]), (2.2, &[])] {
+    // Without a shape its ellipsoid of inertia has 1.127 m³.
+    for (mass, told) in [(5.5, &[FindingKind::Density][..]), (5.8, &[])] {
         assert_eq!(Part { size: None, mass, ..cube() }.kinds(), told, "{mass}");
     }
 }
@@ -237,8 +237,8 @@ fn inertia_in_another_unit_is_told_and_says_which() {
         // What follows from it is not told beside it.
         assert_eq!(check.findings.len(), 1, "{:?}", check.findings);
         let place = slip.place.as_ref().expect("the inertia's place");
-        assert_eq!(place.to_string(), "model.urdf:5");
-        assert_eq!(place.source.text.get(place.span.start..place.span.start + 8), Some("<inertia"));
+        assert_eq!(place.to_string(), "model.urdf:3");
+        assert_eq!(place.source.text.get(place.span.start..place.span.start + 7), Some("inertia"));
     }
 }
 

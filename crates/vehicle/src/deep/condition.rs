@@ -17,9 +17,6 @@ const NAMED: usize = 4;
 
 /// The largest condition number of the mass matrix, scaled so that its diagonal is one: a ratio of
 /// eigenvalues that no choice of units changes.
-///
-/// # Source
-/// van der Sluis 1969: no other scaling of rows and columns is better by more than the number of rows.
 pub(super) fn condition_findings(vehicle: &Vehicle) -> (Vec<Finding>, Fine) {
     let travels: Vec<_> = vehicle.limits.iter().map(|limits| limits.travel).collect();
     let looked = postures(&travel_or_usual(&vehicle.robot, &travels));

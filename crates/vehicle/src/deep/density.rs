@@ -6,7 +6,7 @@ use crate::check::{OSMIUM, ellipsoid_density, principal_moments};
 use crate::figures::figures;
 
 /// Density below which nothing is built (kg/m³): the lightest rigid foams have about 10, and outlines
-/// hold air. The emptiest outline of the catalogue has 6.9.
+/// hold air. The emptiest outline of the catalogue has 35.
 pub(super) const FOAM: f64 = 5.0;
 
 /// Mass over volume of a part (kg/m³), and what the volume is of; `None` where nothing has a volume.

@@ -40,3 +40,36 @@ impl Vehicle {
         check
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::parts::parts;
+    use crate::catalogue;
+    use crate::check::{angle_between, long_axis};
+
+    /// What the bounds on shapes are stated with: the extremes of the catalogue.
+    #[test]
+    fn bounds_on_shapes_are_clear_of_the_catalogue() {
+        let (mut least, mut farthest, mut widest) = (f64::INFINITY, 0.0_f64, 0.0_f64);
+        for entry in catalogue() {
+            let vehicle = entry.read().expect("the catalogue reads");
+            for part in parts(&vehicle).iter().filter(|part| !part.own.is_empty()) {
+                let solid = part.own.solid_axes().expect("a solid");
+                let even = solid.iter().map(|axis| axis.gyration).fold(0.0, f64::max);
+                least = least.min(part.gyration() / even);
+                let reach = part.own.farthest_from(part.matter.p_cm);
+                println!("{} {} {}", vehicle.name, part.matter.link, part.gyration() / reach);
+                farthest = farthest.max(part.gyration() / reach);
+                let long = long_axis(&solid, 2.0).zip(long_axis(&part.axes, 2.0));
+                if let Some((shape, matter)) = long {
+                    let angle = angle_between(shape, matter).to_degrees();
+                    widest = widest.max(angle);
+                }
+            }
+        }
+        println!("{least} {farthest} {widest}");
+        assert!(least > 0.6, "measured 0.69: {least}");
+        assert!(farthest < 1.25, "measured 1.19: {farthest}");
+        assert!(widest < 5.0, "measured 2.6 deg: {widest}");
+    }
+}
