@@ -53,7 +53,7 @@ fn the_report_of_a_deep_check_fits_a_terminal_and_does_not_change_the_exit_code(
     let long = said.out.lines().find(|line| line.chars().count() > 80);
     assert_eq!(long, None);
     assert!(said.out.contains("deep check: 2 findings"), "{}", said.out);
-    assert!(said.out.contains("warning: cube (shapes.urdf:11)"), "{}", said.out);
+    assert!(said.out.contains("warning: cube (shapes.urdf:10)"), "{}", said.out);
     assert!(said.out.contains("energy and momentum of a coast: energy drifts"), "{}", said.out);
 }
 
@@ -70,7 +70,7 @@ fn json_tells_complaints_and_findings_with_their_places() {
         (&complaints[0]["severity"], &complaints[0]["line"]),
         (&"warning".into(), &6.into())
     );
-    assert_eq!(complaints[0]["column"], 7);
+    assert_eq!(complaints[0]["column"], 8);
     let findings = object["findings"].as_array().expect("a list");
     let kinds: Vec<_> = findings.iter().map(|found| found["kind"].as_str()).collect();
     assert_eq!(kinds, [Some("unit_slip"), Some("inertia_across_shape")]);

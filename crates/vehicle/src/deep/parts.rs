@@ -42,13 +42,13 @@ impl Part<'_> {
         if self.is_drawn_whole && !self.own.is_empty() {
             let [own, body] =
                 [&self.own, &self.body].map(|drawn| drawn.farthest_from(self.matter.p_cm));
-            return Some((own, body, "what is drawn"));
+            return Some((own, body, "what is drawn reaches to"));
         }
         // A small part that is fixed to a long body has nothing to do with where its joints are.
         let is_main = self.matter.mass > 0.5 * self.body_mass;
         let is_said = self.is_carried && is_main;
         let distance = self.joint_distance.filter(|distance| is_said && *distance > CLOSE)?;
-        Some((distance, distance, "its farthest joint"))
+        Some((distance, distance, "its farthest joint is"))
     }
 }
 

@@ -67,7 +67,7 @@ fn inertia(part: &Part<'_>) -> Option<Finding> {
     let near = |slip: f64| is_told(slip) && (slip / NEAR..slip * NEAR).contains(&ratio);
     let (_, question) = SLIPS.iter().find(|(slip, _)| near(*slip))?;
     let message = format!(
-        "its radius of gyration is {} m, {of} is {} m from its centre of mass: {} times what is usual; \
+        "its radius of gyration is {} m, {of} {} m from its centre of mass: {} times what is usual; \
          {question}",
         figures(part.gyration()),
         figures(size),
