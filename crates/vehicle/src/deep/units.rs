@@ -62,8 +62,7 @@ fn inertia(part: &Part<'_>) -> Option<Finding> {
     let size = if part.gyration() > own { body } else { own };
     let ratio = part.gyration() / (USUAL_GYRATION * size);
     // Where joints are says less than what is drawn: a wrist's lie together.
-    let is_told =
-        |slip: f64| !part.own.is_empty() || (0.1..10.0).contains(&(slip.log10().abs() - 2.0));
+    let is_told = |slip: f64| !part.own.is_empty() || slip.log10().abs() > 2.0;
     let near = |slip: f64| is_told(slip) && (slip / NEAR..slip * NEAR).contains(&ratio);
     let (_, question) = SLIPS.iter().find(|(slip, _)| near(*slip))?;
     let message = format!(
