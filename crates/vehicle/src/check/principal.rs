@@ -56,13 +56,11 @@ pub(crate) fn angle_between(a: Vec3<f64>, b: Vec3<f64>) -> f64 {
 pub(crate) fn axis_in_words(axis: Vec3<f64>) -> String {
     let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(Vec3::from_array);
     let near = |unit: &Vec3<f64>| angle_between(*unit, axis) < 1f64.to_radians();
-    match units.iter().position(near) {
-        Some(k) => ["x", "y", "z"][k].to_owned(),
-        None => {
-            let [x, y, z] = axis.to_array();
-            format!("[{x:.2}, {y:.2}, {z:.2}]")
-        }
+    if let Some(k) = units.iter().position(near) {
+        return ["x", "y", "z"][k].to_owned();
     }
+    let [x, y, z] = axis.to_array();
+    format!("[{x:.2}, {y:.2}, {z:.2}]")
 }
 
 #[cfg(test)]

@@ -67,9 +67,8 @@ fn part<'v>(vehicle: &'v Vehicle, matter: &'v LinkMatter) -> Option<Part<'v>> {
         let wanted = shapes.filter(|shape| wanted(&shape.link, shape.frame.body));
         Drawn::of(wanted.map(|shape| (X_LB * shape.frame.X_BF, shape.kind)))
     };
-    let on_body = vehicle.frames.iter().filter(|other| other.frame.body == body);
-    let is_drawn_whole =
-        on_body.fold(true, |whole, frame| whole && !vehicle.partly_drawn.contains(&frame.name));
+    let mut on_body = vehicle.frames.iter().filter(|other| other.frame.body == body);
+    let is_drawn_whole = on_body.all(|frame| !vehicle.partly_drawn.contains(&frame.name));
     Some(Part {
         matter,
         place: vehicle.places.matter.get(index).and_then(Option::as_ref),
