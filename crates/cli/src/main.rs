@@ -5,8 +5,10 @@
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
 mod check;
+mod check_json;
 mod completions;
 mod convert;
+mod deep_report;
 mod eval;
 mod eval_answer;
 mod eval_question;

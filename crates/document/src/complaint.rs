@@ -1,5 +1,6 @@
 //! What is wrong, where, and how to mend it.
 
+use crate::excerpt::Lines;
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -100,6 +101,12 @@ impl Complaint {
             span: Some(span.start - begin..span.end.max(begin) - begin),
             ..self.clone()
         }
+    }
+    /// Line, and place in it in characters, both from 1, of where it points; `None` for the file as a whole.
+    pub fn line_and_column(&self) -> Option<(usize, usize)> {
+        let text = &self.source.text;
+        let excerpt = Lines::of(text).excerpt(text, self.span.as_ref()?);
+        Some((excerpt.line, excerpt.column))
     }
     /// The same, with how to mend it.
     #[must_use]

@@ -8,6 +8,7 @@
 mod applied_wrench;
 mod case;
 mod case_world;
+mod coast;
 pub mod figures;
 mod flight_loop;
 mod gripping;
@@ -26,6 +27,7 @@ pub use applied_wrench::AppliedWrench;
 pub use case::{
     AttitudeActuation, Believed, Case, FailureCase, PayloadCase, PayloadStart, Setting, StepCase,
 };
+pub use coast::{COAST_SEED, Coast, coast};
 pub use flight_loop::fly;
 pub use notices::overlap::looked_at;
 pub use outcome::{

@@ -4,12 +4,12 @@
 use crate::assembly::{Assembly, AssemblyJoint, Link, Matter};
 use crate::check::{
     Edge, Regularity, Tree, check_body, check_joint, check_numbers, check_single_links,
-    doubt_joint, doubt_mass, doubt_matter, regularity, tree,
+    doubt_against_shape, doubt_joint, doubt_mass, doubt_matter, regularity, tree,
 };
 use crate::figures::figures;
 use crate::findings::Findings;
 use crate::followers::{followers, settle_followers};
-use crate::vehicle::{GraspBounds, JOINTS, LinkMatter, NamedFrame, VehicleRobot};
+use crate::vehicle::{GraspBounds, JOINTS, LinkMatter, NamedFrame, Places, VehicleRobot};
 use wrasse_document::Complaint;
 use wrasse_dynamics::{BodyId, Frame, Joint, JointKind, MassProperties};
 use wrasse_hardware::{Follower, JointLimits};
@@ -29,6 +29,8 @@ pub(crate) struct AssembledRobot {
     pub(crate) frames: Vec<NamedFrame>,
     /// The matter of each link that has any, in its own frame.
     pub(crate) matter: Vec<LinkMatter>,
+    /// Where the inertia of each link and the moving joints stand.
+    pub(crate) places: Places,
     /// Values that are possible but implausible, or impossible and accepted.
     pub(crate) warnings: Vec<Complaint>,
 }
@@ -60,7 +62,8 @@ pub(crate) fn assemble(assembly: &Assembly) -> Result<AssembledRobot, Vec<Compla
     };
     let parts = Parts::of(&tree, links, joints);
     parts.check_masses(&tree, links, joints, &mut found);
-    parts.into_robot(links, joints, found)
+    doubt_against_shape(assembly, &parts.frames, &mut found);
+    parts.into_robot(assembly, joints, found)
 }
 
 /// Bodies in the making.
@@ -136,10 +139,11 @@ impl Parts {
 
     fn into_robot(
         self,
-        links: &[Link],
+        assembly: &Assembly,
         joints: &[AssemblyJoint],
         mut found: Findings,
     ) -> Result<AssembledRobot, Vec<Complaint>> {
+        let links = &assembly.links;
         if !found.without_error() {
             return Err(found.into_complaints());
         }
@@ -174,9 +178,18 @@ impl Parts {
             followers: followers(&moving),
             frames: links.iter().zip(&self.frames).map(named).collect(),
             matter: links.iter().filter_map(LinkMatter::of).collect(),
+            places: places(assembly, &moving),
             warnings: found.into_complaints(),
         })
     }
+}
+
+fn places(assembly: &Assembly, moving: &[&AssemblyJoint]) -> Places {
+    let files = &assembly.files;
+    let matter =
+        assembly.links.iter().map(|link| files.place_of(&link.matter.as_ref()?.inertia_at));
+    let joints = moving.iter().filter_map(|joint| files.place_of(&joint.at));
+    Places { matter: matter.collect(), joints: joints.collect() }
 }
 
 /// Complains of a robot whose equations of motion have no solution in some posture within the travels.

@@ -4,7 +4,7 @@
 use crate::findings::SourceFiles;
 use crate::provenance::Provenance;
 use crate::vehicle::{GraspBounds, ShapeKind};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use wrasse_dynamics::JointKind;
 use wrasse_hardware::JointLimits;
@@ -19,6 +19,8 @@ pub(crate) struct Assembly {
     pub(crate) joints: Vec<AssemblyJoint>,
     /// What is drawn of the links.
     pub(crate) outlines: Vec<Outline>,
+    /// Names of the links that are drawn by more than outlines: by meshes, of which nothing is known.
+    pub(crate) partly_drawn: BTreeSet<String>,
     /// The links that are tools, with how well a grip must lie in them.
     pub(crate) tools: Vec<(String, GraspBounds)>,
     /// Named positions of joints, as far as they are given (rad or m).
@@ -184,6 +186,7 @@ impl Assembly {
         self.links.append(&mut other.links);
         self.joints.append(&mut other.joints);
         self.outlines.append(&mut other.outlines);
+        self.partly_drawn.append(&mut other.partly_drawn);
         self.tools.append(&mut other.tools);
         self.postures.append(&mut other.postures);
         self.provenance.append(&mut other.provenance);
@@ -205,6 +208,9 @@ impl Assembly {
             joint.mimic.iter_mut().for_each(|mimic| put(&mut mimic.leader));
         }
         self.outlines.iter_mut().for_each(|outline| put(&mut outline.link));
+        let partly_drawn = std::mem::take(&mut self.partly_drawn);
+        self.partly_drawn =
+            partly_drawn.into_iter().map(|name| format!("{prefix}{name}")).collect();
         self.tools.iter_mut().for_each(|(name, _)| put(name));
         for (name, positions) in &mut self.postures {
             put(name);

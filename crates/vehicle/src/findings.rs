@@ -1,5 +1,6 @@
 //! The complaints of one reading, gathered so that all of them are told at once.
 
+use crate::deep::Place;
 use std::ops::Range;
 use std::sync::Arc;
 use wrasse_document::{Complaint, Severity, Source};
@@ -71,6 +72,12 @@ impl SourceFiles {
         let piece = self.pieces.get(after.checked_sub(1)?)?;
         Some((piece, (byte - piece.begin + piece.at.start).min(piece.at.end)))
     }
+    /// The place of a byte range in its file.
+    pub(crate) fn place_of(&self, at: &Range<usize>) -> Option<Place> {
+        let (piece, begin) = self.place(at.start)?;
+        let end = (begin + at.len()).min(piece.at.end).max(begin);
+        Some(Place { source: Arc::clone(&piece.source), span: begin..end })
+    }
     /// Place of a source among the files.
     fn rank(&self, source: &Arc<Source>) -> usize {
         let same = |piece: &Piece| Arc::ptr_eq(&piece.source, source) || piece.source == *source;
@@ -115,13 +122,12 @@ impl Findings {
         label: &str,
         help: &str,
     ) {
-        let Some((piece, begin)) = self.sources.place(at.start) else { return };
-        let end = begin + at.len();
+        let Some(Place { source, span }) = self.sources.place_of(at) else { return };
         self.list.push(Complaint {
             severity,
             message,
-            source: Arc::clone(&piece.source),
-            span: Some(begin..end.min(piece.at.end).max(begin)),
+            source,
+            span: Some(span),
             label: label.to_owned(),
             help: (!help.is_empty()).then(|| help.to_owned()),
         });

@@ -3,7 +3,7 @@
 //! Rooms, each of which uses those before it: `table` (what all tables of a file share), `check`
 //! (whether what a file says can be), `hardware` (the tables `[actuators]` and `[sensors]`, and the
 //! catalogue of units), `xml` (what all readers of XML share), `toml`, `urdf` and `mjcf` (one file
-//! for each table or element).
+//! for each table or element). `deep` takes a second look at the checked vehicle.
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
 mod assemble;
@@ -11,6 +11,7 @@ mod assembly;
 mod catalogue;
 mod check;
 mod convert;
+mod deep;
 mod equipment;
 mod figures;
 mod findings;
@@ -30,6 +31,7 @@ mod xml;
 pub use catalogue::{CatalogueEntry, NoVehicle, catalogue, find_vehicle};
 pub use check::check_equipment;
 pub use convert::{ConvertOptions, convert_to_toml};
+pub use deep::{DeepCheck, Finding, FindingKind, FindingSeverity, Fine, Place};
 pub use equipment::Equipment;
 pub use hardware::{
     EquipmentFile, HardwareEntry, SensorsFile, hardware, hardware_texts, read_equipment,
@@ -40,6 +42,7 @@ pub use read_vehicle::read_vehicle;
 pub use rotation::from_rpy_deg;
 pub use toml::vehicle_schema;
 pub use vehicle::{
-    GraspBounds, JOINTS, LinkMatter, NamedFrame, Posture, Shape, ShapeKind, Vehicle, VehicleRobot,
+    GraspBounds, JOINTS, LinkMatter, NamedFrame, Places, Posture, Shape, ShapeKind, Vehicle,
+    VehicleRobot,
 };
 pub use wrasse_hardware::{Follower, follow};

@@ -135,6 +135,8 @@ impl Model {
             equipment: self.equipment.unwrap_or_default(),
             sensors: self.sensors,
             shapes,
+            partly_drawn: assembly.partly_drawn,
+            places: assembled.places,
             provenance: assembly.provenance,
             not_public: self.not_public,
             remarks,

@@ -1,8 +1,10 @@
 //! A checked vehicle: everything that the rest of the program knows of it.
 
 use crate::assembly::{Link, Matter};
+use crate::deep::Place;
 use crate::equipment::Equipment;
 use crate::provenance::Provenance;
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 use wrasse_document::{Complaint, Source};
@@ -51,12 +53,25 @@ pub struct Vehicle {
     pub sensors: Sensors<f64>,
     /// What to draw.
     pub shapes: Vec<Shape>,
+    /// Names of the links that are drawn by more than shapes: by meshes, of which nothing is known.
+    pub partly_drawn: BTreeSet<String>,
+    /// Where links and joints stand in its files.
+    pub places: Places,
     /// Where its numbers come from, in the order of the file; those of the equipment say it themselves.
     pub provenance: Vec<Provenance>,
     /// What no document says of the real vehicle, as its file lists it.
     pub not_public: Vec<String>,
     /// Warnings and notes of the reading: implausible values, tags not used.
     pub remarks: Vec<Complaint>,
+}
+
+/// Where things stand in the files of a vehicle.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Places {
+    /// The inertia of each link, in the order of [`Vehicle::frames`]; `None` of a link without.
+    pub matter: Vec<Option<Place>>,
+    /// The moving joints, in the robot's order.
+    pub joints: Vec<Place>,
 }
 
 /// What one link is made of, before it is merged with those fixed to it.

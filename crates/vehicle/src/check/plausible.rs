@@ -1,7 +1,7 @@
 //! Values that can be, but are worth a second look: most are a wrong unit.
 
 use super::physical::principal_moments;
-use crate::assembly::{AssemblyJoint, Link, Matter};
+use crate::assembly::{AssemblyJoint, Link};
 use crate::figures::figures;
 use crate::findings::Findings;
 use wrasse_dynamics::{BodyId, JointKind};
@@ -14,13 +14,13 @@ pub(crate) const BASE_SIZE: f64 = 55.0;
 /// Smallest radius of gyration that is believed (m).
 const SMALLEST_GYRATION: f64 = 1e-3;
 /// Density of osmium, the densest of the metals (kg/m³).
-const OSMIUM: f64 = 22_590.0;
+pub(crate) const OSMIUM: f64 = 22_590.0;
 /// Smallest mass of a moving body that is believed, as a part of the whole (–).
 const SMALLEST_MASS: f64 = 1e-6;
 /// What is thinner than this (m) is an idealisation, not a mistake.
 const THIN: f64 = 1e-4;
 /// Two turns (rad): what lies beyond was meant in degrees, or is no limit.
-const TWO_TURNS: f64 = 4.0 * core::f64::consts::PI;
+pub(crate) const TWO_TURNS: f64 = 4.0 * core::f64::consts::PI;
 
 /// Warns of mass properties that hardly any link has.
 pub(crate) fn doubt_matter(link: &Link, body: BodyId, found: &mut Findings) {
@@ -40,11 +40,11 @@ pub(crate) fn doubt_matter(link: &Link, body: BodyId, found: &mut Findings) {
             matter.mass
         );
         found.warning(at, message, "this inertia", "inertia is in kg·m²");
-    } else if density(matter, moments) > OSMIUM {
+    } else if ellipsoid_density(matter.mass, moments) > OSMIUM {
         let message = format!(
             "'{name}' is denser than osmium: an even ellipsoid with its mass and inertia has \
              {} kg/m³",
-            figures(density(matter, moments))
+            figures(ellipsoid_density(matter.mass, moments))
         );
         found.warning(at, message, "this inertia", "is the inertia about the centre of mass?");
     }
@@ -57,14 +57,14 @@ pub(crate) fn doubt_matter(link: &Link, body: BodyId, found: &mut Findings) {
 
 /// Density of the even ellipsoid with this mass and these principal moments (kg/m³); zero for a
 /// shape without volume (an ideal rod), which says nothing.
-fn density(matter: &Matter, [a, b, c]: [f64; 3]) -> f64 {
+pub(crate) fn ellipsoid_density(mass: f64, [a, b, c]: [f64; 3]) -> f64 {
     // Semi-axes from I_x = m (y² + z²)/5.
-    let square = |sum: f64| (2.5 * sum / matter.mass).max(0.0);
+    let square = |sum: f64| (2.5 * sum / mass).max(0.0);
     let product = square(b + c - a) * square(c + a - b) * square(a + b - c);
     if square(a + b - c).sqrt() < THIN {
         return 0.0;
     }
-    matter.mass / (4.0 / 3.0 * core::f64::consts::PI * product.sqrt())
+    mass / (4.0 / 3.0 * core::f64::consts::PI * product.sqrt())
 }
 
 /// Warns of limits that hardly any joint has.

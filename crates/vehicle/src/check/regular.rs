@@ -45,12 +45,7 @@ pub(crate) fn regularity(robot: &VehicleRobot, travels: &[Option<(f64, f64)>]) -
     if holds_in_every_posture(robot) {
         return Regularity::Proved;
     }
-    let ends: Vec<_> = (0..robot.joint_count())
-        .map(|j| {
-            let given = travels.get(j).copied().flatten();
-            given.filter(|(a, b)| a <= b).unwrap_or(usual_travel(robot.joint(j).kind))
-        })
-        .collect();
+    let ends = travel_or_usual(robot, travels);
     let mut looked: Vec<_> =
         postures(&ends).into_iter().map(|q| (least_pivot(robot, &q), q)).collect();
     // The first that is singular is the simplest.
@@ -78,6 +73,18 @@ fn singular(robot: &VehicleRobot, ends: &[(f64, f64)], mut q: Vec<f64>) -> Regul
     let pivots = pivots(robot, &q).into_iter().enumerate();
     let rows = pivots.filter(|(_, pivot)| *pivot < REGULAR).map(|(row, _)| row).collect();
     Regularity::Singular { q, rows }
+}
+
+/// The ends of travel of each joint (rad or m): where none are given, a whole turn, or a metre either way.
+pub(crate) fn travel_or_usual(
+    robot: &VehicleRobot,
+    travels: &[Option<(f64, f64)>],
+) -> Vec<(f64, f64)> {
+    let ends = |j: usize| {
+        let given = travels.get(j).copied().flatten();
+        given.filter(|(a, b)| a <= b).unwrap_or(usual_travel(robot.joint(j).kind))
+    };
+    robot.joints().map(ends).collect()
 }
 
 fn usual_travel(kind: JointKind) -> (f64, f64) {
@@ -155,7 +162,7 @@ fn least_eigenvalue(matrix: &Matrix6<f64>) -> f64 {
 }
 
 /// Postures to look at: zero; each joint alone at quarter turns and at its ends; and a spread of all.
-fn postures(ends: &[(f64, f64)]) -> Vec<Vec<f64>> {
+pub(crate) fn postures(ends: &[(f64, f64)]) -> Vec<Vec<f64>> {
     let zero: Vec<f64> = ends.iter().map(|&(lower, upper)| 0f64.clamp(lower, upper)).collect();
     let mut all = vec![zero.clone()];
     for (j, &(lower, upper)) in ends.iter().enumerate() {

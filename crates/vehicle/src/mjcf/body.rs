@@ -29,6 +29,8 @@ pub(super) struct Bodies<'c, 'd, 't, 'r> {
     pub(super) links: Vec<Link>,
     pub(super) joints: Vec<AssemblyJoint>,
     pub(super) outlines: Vec<Outline>,
+    /// Names of the links that are drawn by more than outlines.
+    pub(super) partly_drawn: BTreeSet<String>,
     /// Whether the file says that the base floats, or that nothing lets it move.
     pub(super) is_free: bool,
     pub(super) stands: bool,
@@ -58,6 +60,7 @@ impl<'c, 'd, 't, 'r> Bodies<'c, 'd, 't, 'r> {
             links: Vec::new(),
             joints: Vec::new(),
             outlines: Vec::new(),
+            partly_drawn: BTreeSet::new(),
             is_free: false,
             stands: false,
             references: BTreeMap::new(),
@@ -99,6 +102,8 @@ impl<'c, 'd, 't, 'r> Bodies<'c, 'd, 't, 'r> {
             let drawn = geoms.iter().flat_map(|geom| &geom.outlines);
             let of_body = |&(X_LF, kind): &_| Outline { link: name.clone(), X_LF, kind };
             self.outlines.extend(drawn.map(of_body));
+            let is_partly_drawn = geoms.iter().any(|geom| geom.is_undrawn);
+            self.partly_drawn.extend(is_partly_drawn.then(|| name.clone()));
             self.compiler.matter((&name, &at), contents.inertial, &geoms, self.reading)
         };
         let joints: Vec<_> = contents.joints.iter().map(|joint| self.joint(joint)).collect();

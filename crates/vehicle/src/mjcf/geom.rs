@@ -73,6 +73,8 @@ pub(super) struct Geom {
     pub(super) unknown: Option<&'static str>,
     /// What is drawn, in body axes.
     pub(super) outlines: Vec<(Pose<f64>, ShapeKind)>,
+    /// It has a form that no outline stands for: a mesh, an ellipsoid.
+    pub(super) is_undrawn: bool,
 }
 
 impl Compiler {
@@ -93,6 +95,7 @@ impl Compiler {
             solid: None,
             unknown: None,
             outlines: Vec::new(),
+            is_undrawn: false,
         };
         let mass = reading.number(geom.giver("mass"), "mass");
         let density = reading.number(geom.giver("density"), "density");
@@ -109,13 +112,15 @@ impl Compiler {
             return nothing;
         }
         if fitted || matches!(of_type, "mesh" | "sdf") {
-            return Geom { unknown: has_mass.then_some("a mesh"), ..nothing };
+            return Geom { unknown: has_mass.then_some("a mesh"), is_undrawn: true, ..nothing };
         }
         let Some((form, X_FG)) = self.form(of_type, geom, reading) else {
             return Geom { solid: Some(Solid::stand_in()), ..nothing };
         };
         let X_BG = *X_BF * X_FG;
-        let outlines = outlines(form).into_iter().map(|(X_GS, kind)| (X_BG * X_GS, kind)).collect();
+        let outlines: Vec<_> =
+            outlines(form).into_iter().map(|(X_GS, kind)| (X_BG * X_GS, kind)).collect();
+        let nothing = Geom { is_undrawn: outlines.is_empty(), ..nothing };
         let (extent, moments) = if shell {
             (form.surface(), form.moments_of_shell())
         } else {

@@ -111,7 +111,8 @@ fn assembly<'d>(root: &Element<'d, '_>, reading: &mut Reading<'d>) -> Assembly {
     if let Some(base) = base {
         bodies.read(base);
     }
-    let (mut links, mut joints, outlines) = (bodies.links, bodies.joints, bodies.outlines);
+    let (mut links, mut joints) = (bodies.links, bodies.joints);
+    let (outlines, partly_drawn) = (bodies.outlines, bodies.partly_drawn);
     let is_free = bodies.is_free;
     follow(&couplings, &mut joints, &bodies.references, bodies.reading);
     if let Some(base) = links.first().filter(|_| bodies.stands) {
@@ -139,6 +140,7 @@ fn assembly<'d>(root: &Element<'d, '_>, reading: &mut Reading<'d>) -> Assembly {
         links,
         joints,
         outlines,
+        partly_drawn,
         postures,
         provenance: vec![provenance],
         ..Assembly::default()

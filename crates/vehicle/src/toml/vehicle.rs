@@ -17,6 +17,7 @@ use crate::read_vehicle::Nesting;
 use crate::table::{ProvenanceFile, Reading, SourceFile, Sources};
 use schemars::JsonSchema;
 use serde::Deserialize;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use wrasse_document::{Complaint, Document, Source, UNKNOWN, at};
 use wrasse_hardware::Sensors;
@@ -137,6 +138,7 @@ fn assembly_of(reading: &mut Reading<'_>, file: &VehicleFile) -> Assembly {
         links,
         joints,
         outlines: outlines(reading, file),
+        partly_drawn: BTreeSet::new(),
         tools: tools.zip(bounds).collect(),
         postures: file.posture.iter().map(given_posture).collect(),
         provenance: vec![],

@@ -44,16 +44,17 @@ const CYLINDER: Kind =
 const SPHERE: Kind = Kind { tag: "sphere", attributes: &["radius"], children: &[], unused: &[] };
 
 impl Reading<'_> {
-    /// A link and its outlines; nothing if it has no name.
-    pub(crate) fn link(&mut self, node: Node<'_, '_>) -> Option<(Link, Vec<Outline>)> {
+    /// A link, its outlines, and whether it is drawn by more than these; nothing if it has no name.
+    pub(crate) fn link(&mut self, node: Node<'_, '_>) -> Option<(Link, Vec<Outline>, bool)> {
         let element = self.open(node, &LINK);
         let matter = element.only("inertial", self).and_then(|inertial| self.matter(inertial));
         let outlines: Vec<_> =
             element.children("visual").filter_map(|visual| self.outline(visual)).collect();
+        let is_partly_drawn = element.children("visual").count() > outlines.len();
         let name = element.required("name", self)?;
         let outline = |(X_LF, kind)| Outline { link: name.text.to_owned(), X_LF, kind };
         let link = Link { name: name.text.to_owned(), at: name.at.clone(), matter };
-        Some((link, outlines.into_iter().map(outline).collect()))
+        Some((link, outlines.into_iter().map(outline).collect(), is_partly_drawn))
     }
 
     /// Mass properties; nothing if all are zero. After a complaint, neutral values stand in: the rest

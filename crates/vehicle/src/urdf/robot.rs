@@ -7,6 +7,7 @@ use crate::model::Model;
 use crate::provenance::{Grade, Provenance};
 use crate::xml::{Element, Format, Kind, Reading, not_xml, tag_at};
 use roxmltree::Document;
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::sync::Arc;
 use wrasse_document::{Complaint, Source};
@@ -63,7 +64,7 @@ pub(crate) fn read_urdf(source: &Arc<Source>) -> Result<Model, Vec<Complaint>> {
     let mut reading = Reading::new(&source.text, found, &URDF);
     let robot = reading.open(document.root_element(), &ROBOT);
     let name = robot.required("name", &mut reading);
-    let (mut links, outlines) = reading.links(&robot);
+    let (mut links, outlines, partly_drawn) = reading.links(&robot);
     let joints: Vec<_> = robot.children("joint").map(|joint| reading.joint(joint)).collect();
     let joints = reading.float_the_base(&mut links, joints);
     let name = name.map_or(String::new(), |name| name.text.to_owned());
@@ -74,6 +75,7 @@ pub(crate) fn read_urdf(source: &Arc<Source>) -> Result<Model, Vec<Complaint>> {
         links,
         joints,
         outlines,
+        partly_drawn,
         provenance: vec![provenance],
         ..Assembly::default()
     };
@@ -83,16 +85,18 @@ pub(crate) fn read_urdf(source: &Arc<Source>) -> Result<Model, Vec<Complaint>> {
 }
 
 impl Reading<'_> {
-    fn links(&mut self, robot: &Element<'_, '_>) -> (Vec<Link>, Vec<Outline>) {
+    fn links(&mut self, robot: &Element<'_, '_>) -> (Vec<Link>, Vec<Outline>, BTreeSet<String>) {
         let mut outlines = Vec::new();
+        let mut partly_drawn = BTreeSet::new();
         let mut links = Vec::new();
         for node in robot.children("link") {
-            if let Some((link, shown)) = self.link(node) {
+            if let Some((link, shown, is_partly_drawn)) = self.link(node) {
+                partly_drawn.extend(is_partly_drawn.then(|| link.name.clone()));
                 links.push(link);
                 outlines.extend(shown);
             }
         }
-        (links, outlines)
+        (links, outlines, partly_drawn)
     }
 
     /// Leaves out a root called `world` that carries the base by a floating joint: every base
