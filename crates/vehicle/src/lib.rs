@@ -38,8 +38,9 @@ pub use hardware::{
 pub use provenance::{Grade, Provenance};
 pub use read_vehicle::read_vehicle;
 pub use rotation::from_rpy_deg;
+pub use table::{AttitudeFile, NotARotation, OrientationFile, QuaternionFile};
 pub use toml::vehicle_schema;
 pub use vehicle::{
     Follower, GraspBounds, JOINTS, LinkMatter, NamedFrame, Posture, Shape, ShapeKind, Vehicle,
-    VehicleRobot, follow,
+    VehicleRobot, follow, follow_rates,
 };

@@ -85,6 +85,17 @@ pub fn follow(followers: &[Follower], q: &mut [f64]) {
     }
 }
 
+/// Gives each follower the rate that its leader makes it have (rad/s or m/s).
+pub fn follow_rates(followers: &[Follower], v: &mut [f64]) {
+    for &Follower { joint, leader, ratio, .. } in followers {
+        if let Some(&rate) = v.get(leader)
+            && let Some(place) = v.get_mut(joint)
+        {
+            *place = ratio * rate;
+        }
+    }
+}
+
 /// What one link is made of, before it is merged with those fixed to it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinkMatter {
