@@ -73,7 +73,10 @@ fn a_payload_beside_the_tool_is_not_grasped_and_the_planning_says_how_far_off_it
         let case = fly(&[FORWARD, &beside(position, turn), TORQUE, &grasp()]);
         let End::Infeasible { phase, reason, .. } = &case.end else { panic!("{:?}", case.end) };
         assert_eq!(phase, "grasp");
-        assert!(reason.contains("module refused") && reason.contains(words), "{reason}");
+        assert!(
+            reason.contains("module by the tool tool refused") && reason.contains(words),
+            "{reason}"
+        );
     }
 }
 
