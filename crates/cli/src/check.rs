@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use wrasse_document::{Complaint, Document, Source, visible};
 use wrasse_mission::mission_of;
-use wrasse_rehearsal::sampled_loops;
+use wrasse_rehearsal::{Case, sampled_loops};
 use wrasse_study::study_complaints;
 use wrasse_vehicle::{Vehicle, read_vehicle};
 
@@ -129,11 +129,18 @@ fn of_mission(document: &Document) -> Found {
             let loops: Vec<_> = loops.iter().map(|l| format!("\n  {}", l.text())).collect();
             let loops = loops.concat();
             let what = format!("a mission of {} case(s)", mission.cases.len());
-            Found::usable(mission.remarks, format!("{what}; closed once a period:{loops}"))
+            let tool = guided_tool(&mission.cases[0]);
+            Found::usable(mission.remarks, format!("{what}{tool}; closed once a period:{loops}"))
         }
         Ok(mission) => Found::faulty([of_study, mission.remarks].concat()),
         Err(complaints) => Found::faulty([complaints, of_study].concat()),
     }
+}
+
+/// The tool that phases without their own guide, and whence it is.
+fn guided_tool(case: &Case) -> String {
+    let of_tool = case.as_flown.iter().find(|s| s.key == "control.tool" && s.value != "none");
+    of_tool.map_or(String::new(), |s| format!("; guided tool {} ({})", visible(&s.value), s.origin))
 }
 
 /// The same of a list of hardware or of sets, or of a vehicle.

@@ -7,8 +7,8 @@ use std::ops::Range;
 use std::path::Path;
 use wrasse_document::{Complaint, Document, at, closest};
 use wrasse_dynamics::{Generalized, State};
-use wrasse_spatial::{Pose, Quat, SpatialForce, SpatialVelocity, Vec3};
-use wrasse_vehicle::{JOINTS, Vehicle};
+use wrasse_spatial::{Mat3, Pose, SpatialForce, SpatialVelocity, Vec3};
+use wrasse_vehicle::{AttitudeFile, JOINTS, NotARotation, Vehicle};
 
 /// What `--states` holds.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -33,15 +33,6 @@ struct StateFile {
 struct BaseFile {
     position: [f64; 3],
     attitude: Option<AttitudeFile>,
-}
-
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-struct AttitudeFile {
-    w: f64,
-    x: f64,
-    y: f64,
-    z: f64,
 }
 
 #[derive(Debug, Default, Deserialize, JsonSchema)]
@@ -89,11 +80,11 @@ pub(crate) fn questions(
     for (i, state) in file.states.iter().enumerate() {
         match question(state, vehicle) {
             Ok(question) => questions.push(question),
-            Err(why) => {
+            Err(NotARotation { message, help }) => {
                 let at = at!["states", i, "base", "attitude"];
-                let message = format!("state {i}: {why}");
+                let message = format!("state {i}: {message}");
                 let complaint = part.document.error(at, message, "this attitude");
-                complaints.push(complaint.with_help("divide all four components by the length"));
+                complaints.push(complaint.with_help(help));
             }
         }
     }
@@ -130,19 +121,12 @@ fn wrong_names(document: &Document, file: &StatesFile, vehicle: &Vehicle) -> Vec
     complaints
 }
 
-fn question(file: &StateFile, vehicle: &Vehicle) -> Result<Question, String> {
+fn question(file: &StateFile, vehicle: &Vehicle) -> Result<Question, NotARotation> {
     let v3 = Vec3::from_array;
-    let mut quat_NB = Quat::identity();
-    if let Some(AttitudeFile { w, x, y, z }) = file.base.attitude {
-        quat_NB = Quat { w, x, y, z };
-        let norm = quat_NB.norm();
-        if (norm - 1.0).abs() > 1e-6 {
-            return Err(format!("an attitude is a unit quaternion, found one of length {norm}"));
-        }
-    }
+    let R_NB = file.base.attitude.map_or(Ok(Mat3::identity()), AttitudeFile::rotation)?;
     let mut q = Question {
         state: State {
-            X_NB: Pose::from_quat(quat_NB.normalized(), v3(file.base.position)),
+            X_NB: Pose::new(R_NB, v3(file.base.position)),
             V_NB_B: SpatialVelocity::new(
                 v3(file.base_velocity.angular),
                 v3(file.base_velocity.linear),

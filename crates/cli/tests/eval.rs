@@ -394,3 +394,20 @@ fn an_empty_state_is_at_rest_at_the_origin() {
     assert_eq!(result["kinetic_energy"], json!(0.0));
     assert!(flat(&result["bias_force"]).iter().all(|x| *x == 0.0));
 }
+
+/// Roll and then pitch by a right angle each: `(1 + j)(1 + i) / 2 = (1 + i + j - k) / 2`.
+#[test]
+fn a_base_turned_by_roll_pitch_yaw_is_turned_as_by_its_quaternion() {
+    let pose = |attitude: Value| {
+        let state = json!({ "base": { "attitude": attitude } });
+        let found = eval("one_arm.urdf", &json!({ "frame": "a0_tool", "states": [state] }));
+        flat(&found["results"][0]["pose"]["position"])
+    };
+    let parts = json!({ "w": 0.5, "x": 0.5, "y": 0.5, "z": -0.5 });
+    let wanted = pose(parts.clone());
+    for other in [json!({ "rpy_deg": [90, 90, 0] }), json!({ "quaternion": parts })] {
+        let found = pose(other);
+        let off = found.iter().zip(&wanted).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-14, "round-off of positions of a few metres: {off:e}");
+    }
+}

@@ -311,6 +311,9 @@ fn joint_target<T: Scalar, const J: usize>(
     let q = context.memory.belief.q;
     match to {
         JointTarget::Positions(to) => Ok(core::array::from_fn(|j| to[j].unwrap_or(q[j]))),
+        JointTarget::By(by) => {
+            Ok(core::array::from_fn(|j| by[j].map_or(q[j], |amount| q[j] + amount)))
+        }
         JointTarget::Tool(X, axes) => {
             let (tool, law) = (&context.assignment.tool, context.assignment.law);
             let state = State { X_NB: context.memory.belief.X_NB, q, ..State::default() };

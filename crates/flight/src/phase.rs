@@ -82,6 +82,8 @@ pub enum Target<T> {
 pub enum JointTarget<T, const J: usize> {
     /// To positions (rad or m); joints without one stay.
     Positions([Option<T>; J]),
+    /// By so much (rad or m) from where each is as the phase begins; joints without an amount stay.
+    By([Option<T>; J]),
     /// To the positions that bring the tool to a pose in these axes.
     Tool(Pose<T>, Axes),
 }

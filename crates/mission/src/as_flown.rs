@@ -24,6 +24,10 @@ pub(crate) fn as_flown(document: &Document, file: &MissionFile, case: &Case) -> 
         if let Some(value) = decided(case, &setting.key) {
             setting.value = value;
         }
+        let is_first = setting.key == "control.tool" && !case.vehicle.tools.is_empty();
+        if is_first && setting.origin == "default" {
+            setting.origin = "default: the vehicle's first tool";
+        }
     }
     settings.extend(slosh_setting(case));
     settings.extend(arm_settings(case));
@@ -112,8 +116,9 @@ fn decided(case: &Case, key: &str) -> Option<String> {
         },
         "control.sensing" => if case.sensors.is_some() { "fitted" } else { "perfect" }.into(),
         "control.tool" => {
-            let tool = case.setup.assignment.tool;
-            vehicle.frames.iter().find(|f| f.frame == tool).map(|f| f.name.clone())?
+            let has_tool = !vehicle.tools.is_empty() || vehicle.robot.joint_count() > 0;
+            let tool = case.frame_name(&case.setup.assignment.tool);
+            if has_tool { tool.to_owned() } else { return None }
         }
         "control.redundancy" if case.setup.joints.gain == 0.0 => {
             "none: joint rates of least norm".into()
@@ -127,8 +132,6 @@ fn arm_settings(case: &Case) -> Vec<Setting> {
     let mut settings = vec![];
     for phase in &case.phases {
         for assignment in phase.step.tasks().filter_map(|task| task.assignment) {
-            let frames = &case.vehicle.frames;
-            let tool = frames.iter().find(|f| f.frame == assignment.tool);
             let task = match assignment.task {
                 Task::Pose => "pose",
                 Task::Position => "position",
@@ -138,7 +141,7 @@ fn arm_settings(case: &Case) -> Vec<Setting> {
                 ArmLaw::AttitudeHeld => "attitude-held",
                 ArmLaw::FreeFloating => "free-floating",
             };
-            let tool = tool.map_or("?", |f| f.name.as_str());
+            let tool = case.frame_name(&assignment.tool);
             let key = format!("phase {}: tool, task and law", phase.name);
             settings.push(Setting {
                 key,

@@ -131,7 +131,10 @@ impl<'a> Nominal<'a> {
 
     fn joints(&self, all: &mut Vec<Dispersible>) {
         let vehicle = self.vehicle;
-        for (j, name) in vehicle.joint_names.iter().enumerate() {
+        // A joint that follows another deviates as that one does.
+        let follows = |j| vehicle.followers.iter().any(|follower| follower.joint == j);
+        let own = vehicle.joint_names.iter().enumerate().filter(|(j, _)| !follows(*j));
+        for (j, name) in own {
             let turns = vehicle.robot.joint(j).kind == JointKind::Revolute;
             let (keys, units, scale) = if turns {
                 (["joints_deg", "joint_rates_deg_s"], ["deg", "deg/s"], DEGREES)

@@ -19,6 +19,12 @@ impl Reading<'_> {
         let complaint = self.document.error(path, message, "here");
         self.complaints.push(if help.is_empty() { complaint } else { complaint.with_help(help) });
     }
+    /// Note an error about the key at a path rather than its value.
+    pub(crate) fn wrong_key(&mut self, path: &[Step<'_>], message: String, help: &str) {
+        let at = self.document.key_span(path).unwrap_or(0..0);
+        let complaint = Complaint::error(self.document.source(), message).at(at, "here");
+        self.complaints.push(complaint.with_help(help));
+    }
     /// Note a doubt at a path.
     pub(crate) fn warning(&mut self, path: &[Step<'_>], message: String, help: &str) {
         self.complaints.push(self.document.warning(path, message, "here").with_help(help));

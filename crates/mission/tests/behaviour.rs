@@ -75,7 +75,8 @@ fn a_way_out_of_reach_is_found_before_anything_moves() {
     let End::Infeasible { phase, time_s, reason } = &case.end else { panic!("{:?}", case.end) };
     assert_eq!(phase, "reach");
     assert!((0.0..20.0).contains(time_s), "{time_s}");
-    for words in ["m along the way the tool falls behind", "singular value", "mm short of straight"]
+    for words in
+        ["m along the way the tool tool falls behind", "singular value", "mm short of straight"]
     {
         assert!(reason.contains(words), "no `{words}` in {reason}");
     }

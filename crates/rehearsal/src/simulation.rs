@@ -213,7 +213,8 @@ fn step_ended<P: Plant>(
     step: usize,
     end: &StepEnd<f64>,
 ) -> Option<Event> {
-    let StepCase { name, step, .. } = flight.case.phases.get(step)?;
+    let number = step;
+    let StepCase { name, step, .. } = flight.case.phases.get(number)?;
     let (kind, text) = match end {
         StepEnd::Met if step.until == Condition::Done => return None,
         StepEnd::Met => (EventKind::Condition, format!("step {name}: its condition holds")),
@@ -223,7 +224,7 @@ fn step_ended<P: Plant>(
         }
         StepEnd::Refused => (EventKind::Fault, format!("step {name}: the grip was refused")),
         StepEnd::Blocked(reason) => {
-            let why = no_way(flight.case, reason);
+            let why = no_way(flight.case, number, reason);
             (EventKind::Fault, format!("step {name} cannot begin: {why}"))
         }
     };

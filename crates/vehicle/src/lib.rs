@@ -40,9 +40,10 @@ pub use hardware::{
 pub use provenance::{Grade, Provenance};
 pub use read_vehicle::read_vehicle;
 pub use rotation::from_rpy_deg;
+pub use table::{AttitudeFile, NotARotation, OrientationFile, QuaternionFile};
 pub use toml::vehicle_schema;
 pub use vehicle::{
     GraspBounds, JOINTS, LinkMatter, NamedFrame, Places, Posture, Shape, ShapeKind, Vehicle,
     VehicleRobot,
 };
-pub use wrasse_hardware::{Follower, follow};
+pub use wrasse_hardware::{Follower, follow, follow_rates};

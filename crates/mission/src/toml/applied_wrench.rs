@@ -47,7 +47,7 @@ pub(crate) fn applied_wrenches(r: &mut Reading<'_>, file: &MissionFile) -> Vec<A
             r.error(&path("ramp_s"), message, "at most half of duration_s");
         }
         all.push(AppliedWrench {
-            on: tool(r, &path("on"), Some(&w.on)),
+            on: tool(r, &path("on"), &w.on),
             wrench: SpatialForce::new(vector(w.torque_nm), vector(w.force_n)),
             axes: axes(w.axes),
             from: r.not_negative(&path("from_s"), w.from_s),

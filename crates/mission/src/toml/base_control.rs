@@ -12,6 +12,7 @@ use wrasse_document::at;
 use wrasse_flight::allocation::AllocationSetup;
 use wrasse_flight::{Actuation, BaseControlSetup, Feedforward, PositionHold};
 use wrasse_rehearsal::AttitudeActuation;
+use wrasse_spatial::Quat;
 use wrasse_vehicle::Equipment;
 
 /// Keep the centre of mass where it was at the start, by thrusters.
@@ -60,7 +61,7 @@ pub(crate) fn base_control(
             FeedforwardFile::AsPrintedSystemCm => Feedforward::AsPrintedSystemCm,
             FeedforwardFile::None => Feedforward::None,
         },
-        quat_ND: attitude(r, at!["initial", "attitude"], file.initial.attitude),
+        quat_ND: Quat::from_matrix(&attitude(r, at!["initial", "attitude"], file.initial.attitude)),
         actuation: match (actuation, fitted) {
             _ if file.world.base_attitude != BaseFile::Controlled => Actuation::None,
             (AttitudeActuation::Fitted, Some(e)) => Actuation::Fitted(AllocationSetup {

@@ -5,7 +5,7 @@ use crate::toml::MissionFile;
 use crate::toml::actuators::ActuatorsFile;
 use crate::toml::base_control::PositionHoldFile;
 use crate::toml::estimation::EstimationFile;
-use crate::toml::pose::{posture, tool};
+use crate::toml::pose::{base_frame, posture, tool};
 use crate::toml::sensors::SensingFile;
 use crate::toml::steering::SteeringFile;
 use schemars::JsonSchema;
@@ -17,7 +17,7 @@ use wrasse_flight::{
     Task, Tuning,
 };
 use wrasse_hardware::{JointLimits, List};
-use wrasse_vehicle::JOINTS;
+use wrasse_vehicle::{JOINTS, Vehicle};
 
 /// What the arm law takes the base for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
@@ -229,21 +229,47 @@ fn tuning(r: &mut Reading<'_>, c: &ControlFile) -> Tuning<f64> {
     }
 }
 
-/// The tool that is guided; an error if it was chosen and no joint moves it.
+/// The tool that is guided: that of the name, or the vehicle's first. An error if no joint moves the one
+/// that was chosen, or if none was and the vehicle has none.
 pub(crate) fn guided_tool(
     r: &mut Reading<'_>,
     path: &[Step<'_>],
     name: Option<&str>,
 ) -> Frame<f64> {
+    let first = r.vehicle.tools.first().map(String::as_str);
+    let Some(guided) = name.or(first) else { return no_tool(r, path) };
     let before = r.complaints.len();
-    let guided = tool(r, path, name);
-    if let Some(name) = name
-        && r.complaints.len() == before
-        && guided.body == BodyId::Base
-    {
-        let message = format!("{name} is fixed to the base: no joint moves it");
-        let help = format!("choose a tool: {}", r.vehicle.tools.join(", "));
+    let frame = tool(r, path, guided);
+    if name.is_some() && r.complaints.len() == before && frame.body == BodyId::Base {
+        let message = format!("{guided} is fixed to the base: no joint moves it");
+        let help = match r.vehicle.tools.join(", ") {
+            none if none.is_empty() => one_of_frames(r.vehicle),
+            tools => format!("choose a tool: {tools}"),
+        };
         r.error(path, message, &help);
     }
-    guided
+    frame
+}
+
+/// Of a vehicle without tools nothing says which frame is guided: its frames are listed. Where no joint
+/// moves there is nothing to guide.
+fn no_tool(r: &mut Reading<'_>, path: &[Step<'_>]) -> Frame<f64> {
+    if r.vehicle.robot.joint_count() > 0 {
+        let message = format!("vehicle {} has no tool, and the mission names none", r.vehicle.name);
+        let place: &[Step<'_>] = if r.is_there(path) { path } else { at!["vehicle"] };
+        r.error(place, message, &format!("{} in control.tool", one_of_frames(r.vehicle)));
+    }
+    base_frame()
+}
+
+/// Most frames that are listed.
+const LISTED: usize = 12;
+
+/// The frames that joints move.
+fn one_of_frames(vehicle: &Vehicle) -> String {
+    let moved = vehicle.frames.iter().filter(|named| named.frame.body != BodyId::Base);
+    let names: Vec<&str> = moved.map(|named| named.name.as_str()).collect();
+    let more = if names.len() > LISTED { ", …" } else { "" };
+    let listed = names.iter().take(LISTED).copied().collect::<Vec<_>>().join(", ");
+    format!("name one of the frames that joints move: {listed}{more}")
 }

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use wrasse_document::{Step, at};
 use wrasse_flight::{EstimatorSetup, NavigationSetup, TRACKER_MEMORY};
 use wrasse_hardware::Sensors;
+use wrasse_spatial::Quat;
 
 /// What estimates start from.
 #[derive(Debug, Clone, Deserialize, JsonSchema, Serialize)]
@@ -48,7 +49,7 @@ pub(crate) fn navigation(
             start_bias_sigma: bias_sigma.to_radians() / 3600.0,
         }),
         joint_bandwidth: r.positive(&path("joint_bandwidth_rad_s"), e.joint_bandwidth_rad_s),
-        quat_NB: attitude(r, at!["initial", "attitude"], file.initial.attitude),
+        quat_NB: Quat::from_matrix(&attitude(r, at!["initial", "attitude"], file.initial.attitude)),
     }
 }
 

@@ -2,14 +2,14 @@
 
 use crate::reading::Reading;
 use crate::toml::MissionFile;
-use crate::toml::pose::{AttitudeFile, attitude, radians, tool, vector};
+use crate::toml::pose::{attitude, radians, tool, vector};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use wrasse_document::{Step, at};
 use wrasse_dynamics::{MassProperties, State, kinematics};
 use wrasse_rehearsal::{PayloadCase, PayloadStart};
 use wrasse_spatial::{Pose, SpatialVelocity, Sym3};
-use wrasse_vehicle::JOINTS;
+use wrasse_vehicle::{AttitudeFile, JOINTS};
 
 /// A rigid body that can be held. Its frame is the grip: the frame that coincides with the tool's
 /// while it is held from the start.
@@ -144,7 +144,7 @@ fn beginning(
 ) -> PayloadStart {
     match (&p.held_by, &p.free) {
         (Some(holder), None) => {
-            PayloadStart::Held(tool(r, at!["payload", name, "held_by"], Some(holder)))
+            PayloadStart::Held(tool(r, at!["payload", name, "held_by"], holder))
         }
         (None, Some(free)) => free_start(r, name, free, start),
         (both, _) => {
@@ -164,12 +164,12 @@ fn free_start(
     free: &FreeFile,
     start: &State<f64, JOINTS>,
 ) -> PayloadStart {
-    let quat = attitude(r, at!["payload", name, "free", "attitude"], free.attitude);
-    let seen = Pose::from_quat(quat, vector(free.position_m));
+    let R = attitude(r, at!["payload", name, "free", "attitude"], free.attitude);
+    let seen = Pose::new(R, vector(free.position_m));
     let X_NT = match &free.seen_from {
         None => seen,
         Some(frame) => {
-            let frame = tool(r, at!["payload", name, "free", "seen_from"], Some(frame));
+            let frame = tool(r, at!["payload", name, "free", "seen_from"], frame);
             kinematics(&r.vehicle.robot, start).pose(&frame) * seen
         }
     };

@@ -7,51 +7,8 @@ use std::collections::BTreeMap;
 use wrasse_document::{Step, at};
 use wrasse_dynamics::{BodyId, Frame, JointKind};
 use wrasse_flight::Axes;
-use wrasse_spatial::{Pose, Quat, Vec3};
-use wrasse_vehicle::{GraspBounds, JOINTS, Vehicle, from_rpy_deg};
-
-/// An attitude, from the axes of the thing to those it is measured in: `{ rpy_deg = [roll, pitch, yaw] }`
-/// or a unit quaternion, `{ w = …, x = …, y = …, z = … }` or `{ quaternion = { … } }`.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema, Serialize)]
-#[serde(untagged)]
-pub(crate) enum AttitudeFile {
-    /// Turns about the fixed axes of what it is measured in, roll first (deg).
-    Angles(AnglesFile),
-    /// A unit quaternion.
-    Parts(QuaternionFile),
-    /// A unit quaternion, written as in a vehicle file.
-    Quaternion(UnderQuaternionFile),
-}
-
-/// Roll, pitch and yaw.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema, Serialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct AnglesFile {
-    /// Roll, pitch, yaw (deg): turns about fixed axes, roll first.
-    pub(crate) rpy_deg: [f64; 3],
-}
-
-/// A unit quaternion under its name.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema, Serialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct UnderQuaternionFile {
-    /// The quaternion.
-    pub(crate) quaternion: QuaternionFile,
-}
-
-/// A unit quaternion.
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema, Serialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct QuaternionFile {
-    /// Scalar part.
-    pub(crate) w: f64,
-    /// First component of the vector part.
-    pub(crate) x: f64,
-    /// Second component of the vector part.
-    pub(crate) y: f64,
-    /// Third component of the vector part.
-    pub(crate) z: f64,
-}
+use wrasse_spatial::{Mat3, Pose, Vec3};
+use wrasse_vehicle::{AttitudeFile, GraspBounds, JOINTS, NotARotation, Vehicle};
 
 /// Axes that a target is fixed in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema, Serialize)]
@@ -68,32 +25,17 @@ pub(crate) fn inertial() -> AxesFile {
     AxesFile::Inertial
 }
 
-/// A unit quaternion; an error if it is not one.
+/// `R_NB` of an attitude, which is that of its axes if there is none; an error if it is no rotation.
 pub(crate) fn attitude(
     r: &mut Reading<'_>,
     path: &[Step<'_>],
     file: Option<AttitudeFile>,
-) -> Quat<f64> {
-    let QuaternionFile { w, x, y, z } = match file {
-        None => return Quat::identity(),
-        Some(AttitudeFile::Angles(angles)) => {
-            return Quat::from_matrix(&from_rpy_deg(angles.rpy_deg));
-        }
-        Some(AttitudeFile::Parts(parts)) => parts,
-        Some(AttitudeFile::Quaternion(under)) => under.quaternion,
-    };
-    let quat = Quat { w, x, y, z };
-    let norm = quat.norm();
-    if (norm - 1.0).abs() > 1e-6 {
-        let message = format!("an attitude is a unit quaternion, found one of length {norm}");
-        let help = match norm {
-            0.0 => "no rotation is { w = 1.0, x = 0.0, y = 0.0, z = 0.0 }",
-            _ => "divide all four components by the length",
-        };
-        r.error(path, message, help);
-        return Quat::identity();
-    }
-    quat.normalized()
+) -> Mat3<f64> {
+    let Some(file) = file else { return Mat3::identity() };
+    file.rotation().unwrap_or_else(|NotARotation { message, help }| {
+        r.error(path, message, &help);
+        Mat3::identity()
+    })
 }
 
 /// A vector from an array.
@@ -113,8 +55,8 @@ pub(crate) fn axes(file: AxesFile) -> Axes {
     }
 }
 
-/// Values by joint name into the robot's order; errors for names that are not there or of the other
-/// kind.
+/// Values by joint name into the robot's order; errors for names that are not there, of the other kind,
+/// or of a joint that follows another one.
 pub(crate) fn by_joint(
     r: &mut Reading<'_>,
     path: &[Step<'_>],
@@ -126,7 +68,11 @@ pub(crate) fn by_joint(
     for (name, &value) in values {
         let at_name = [path, &[Step::Key(name)]].concat();
         let Some(j) = r.find(&at_name, "moving joint", name, &names) else { continue };
-        if r.vehicle.robot.joint(j).kind == kind {
+        if let Some(leader) = leader(r.vehicle, j) {
+            let leader = &names[leader];
+            let message = format!("joint '{name}' follows '{leader}'");
+            r.wrong_key(&at_name, message, &format!("name '{leader}' in its place"));
+        } else if r.vehicle.robot.joint(j).kind == kind {
             put(j, if kind == JointKind::Revolute { value.to_radians() } else { value });
         } else {
             let key = path.last().map(ToString::to_string).unwrap_or_default();
@@ -140,6 +86,11 @@ pub(crate) fn by_joint(
     }
 }
 
+/// The joint that a joint follows, if it does.
+pub(crate) fn leader(vehicle: &Vehicle, j: usize) -> Option<usize> {
+    vehicle.followers.iter().find(|follower| follower.joint == j).map(|found| found.leader)
+}
+
 /// Positions of a posture that the vehicle names.
 pub(crate) fn posture(r: &mut Reading<'_>, path: &[Step<'_>], name: &str) -> Option<[f64; JOINTS]> {
     let names: Vec<String> = r.vehicle.postures.iter().map(|p| p.name.clone()).collect();
@@ -149,37 +100,37 @@ pub(crate) fn posture(r: &mut Reading<'_>, path: &[Step<'_>], name: &str) -> Opt
     Some(q)
 }
 
-/// Where a joint's position is written: under its name in one of the first two tables, or else by the
-/// posture.
+/// Where a joint's position is written: under its name, or that of the joint that it follows, in one of
+/// the first two tables, or else by the posture.
 pub(crate) fn place_of_position<'p>(
-    r: &Reading<'_>,
+    r: &Reading<'p>,
     above: &[Step<'p>],
     keys: [&'p str; 3],
-    name: &'p str,
+    j: usize,
 ) -> Vec<Step<'p>> {
+    let vehicle: &'p Vehicle = r.vehicle;
+    let name: &'p str = &vehicle.joint_names[leader(vehicle, j).unwrap_or(j)];
     let [turning, sliding, posture] = keys;
     let by_name = [turning, sliding].map(|key| [above, at![key, name]].concat());
     let written = by_name.into_iter().find(|path| r.is_there(path));
     written.unwrap_or_else(|| [above, at![posture]].concat())
 }
 
-/// A tool or frame by its name; without one the vehicle's first tool, or the last link's frame.
-pub(crate) fn tool(r: &mut Reading<'_>, path: &[Step<'_>], name: Option<&str>) -> Frame<f64> {
+/// A tool or frame by its name; an error if it is not there.
+pub(crate) fn tool(r: &mut Reading<'_>, path: &[Step<'_>], name: &str) -> Frame<f64> {
     let names: Vec<String> = r.vehicle.frames.iter().map(|f| f.name.clone()).collect();
-    let base = Frame { body: BodyId::Base, X_BF: Pose::identity() };
-    match name.or(r.vehicle.tools.first().map(String::as_str)) {
-        Some(name) => {
-            let name = name.to_owned();
-            r.find(path, "tool or frame", &name, &names).map_or(base, |i| r.vehicle.frames[i].frame)
-        }
-        None => r.vehicle.frames.last().map_or(base, |f| f.frame),
-    }
+    let found = r.find(path, "tool or frame", name, &names);
+    found.map_or(base_frame(), |i| r.vehicle.frames[i].frame)
 }
 
-/// How far a grip may be from the tool of this name, or the one that is guided without a name.
+/// What stands in for a frame that is not known.
+pub(crate) fn base_frame() -> Frame<f64> {
+    Frame { body: BodyId::Base, X_BF: Pose::identity() }
+}
+
+/// How far a grip may be from the tool of this name, or from the vehicle's first.
 pub(crate) fn grasp_bounds(vehicle: &Vehicle, name: Option<&str>) -> GraspBounds {
-    let first = vehicle.tools.first().map(String::as_str);
-    let last = vehicle.frames.last().map(|frame| frame.name.as_str());
-    let named = vehicle.frames.iter().find(|f| Some(f.name.as_str()) == name.or(first).or(last));
+    let guided = name.or(vehicle.tools.first().map(String::as_str));
+    let named = vehicle.frames.iter().find(|frame| Some(frame.name.as_str()) == guided);
     named.map_or(GraspBounds::default(), |frame| frame.grasp_bounds)
 }

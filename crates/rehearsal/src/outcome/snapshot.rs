@@ -46,14 +46,13 @@ pub(crate) fn snapshot(
         let edges = Vec3::from_array(payload.box_m?);
         Some(SnapshotBox { name: payload.name.clone(), corners: corners(&X, edges) })
     });
-    let named = case.vehicle.frames.iter().find(|frame| frame.frame == *guided);
     Snapshot {
         time: world.time(),
         boxes: bodies.chain(loads).collect(),
         arms: arms(case, &k),
         tool: tips[0].to_array(),
         reference: tips[1].to_array(),
-        guided: named.map_or(String::new(), |frame| frame.name.clone()),
+        guided: case.frame_name(guided).to_owned(),
     }
 }
 

@@ -75,7 +75,8 @@ impl<'a> BelievedPlant<'a> {
         let k = kinematics(&robot, &self.state);
         let found = GripOffset::of(&k, &tool, &body);
         if !found.is_within(&most) {
-            return Err(refusal(&self.case.payloads[i].name, &found, &most));
+            let (payload, tool) = (&self.case.payloads[i].name, self.case.frame_name(&tool));
+            return Err(refusal(payload, tool, &found, &most));
         }
         let X_FT = k.pose(&tool).inverse() * body.pose();
         let at = Frame { body: tool.body, X_BF: tool.X_BF * X_FT };

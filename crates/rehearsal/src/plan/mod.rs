@@ -256,9 +256,10 @@ fn look(
     };
     (off > OFF_THE_WAY.0 || turned > OFF_THE_WAY.1).then(|| {
         format!(
-            "{:.3} m along the way the tool falls behind its reference by {:.3} mm and {:.4} deg; \
+            "{:.3} m along the way the tool {} falls behind its reference by {:.3} mm and {:.4} deg; \
              {}{limited}{}",
             notes.way,
+            case.frame_name(computer.tool()),
             off * 1e3,
             turned.to_degrees(),
             condition(singular, reach, notes),
@@ -278,10 +279,9 @@ fn look_at_other_arms(
         let (off, turned) = (off.norm(), turned.norm());
         let counts = arm.task == Task::Pose && turned > OFF_THE_WAY.1;
         (off > OFF_THE_WAY.0 || counts).then(|| {
-            let named = case.vehicle.frames.iter().find(|frame| frame.frame == arm.tool);
             format!(
                 "the tool {} falls behind its reference by {:.3} mm and {:.4} deg",
-                named.map_or("of another arm", |frame| frame.name.as_str()),
+                case.frame_name(&arm.tool),
                 off * 1e3,
                 turned.to_degrees()
             )
@@ -386,11 +386,11 @@ fn finished(case: &Case, phase: usize, notes: &PhaseNotes) -> Option<PlanLine> {
 /// A step that cannot begin.
 pub(crate) fn cannot_begin(case: &Case, bad: &BadPhase<f64>, time_s: f64) -> End {
     let phase = case.phases.get(bad.phase).map_or(String::new(), |p| p.name.clone());
-    End::Stopped { phase, time_s, reason: no_way(case, &bad.reason) }
+    End::Stopped { phase, time_s, reason: no_way(case, bad.phase, &bad.reason) }
 }
 
-/// Why a step cannot begin, in words.
-pub(crate) fn no_way(case: &Case, reason: &NoWay<f64>) -> String {
+/// Why the step of this number cannot begin, in words.
+pub(crate) fn no_way(case: &Case, phase: usize, reason: &NoWay<f64>) -> String {
     match reason {
         NoWay::Numbers(numbers) => numbers.to_string(),
         NoWay::TooLong { duration, longest } => {
@@ -407,7 +407,8 @@ pub(crate) fn no_way(case: &Case, reason: &NoWay<f64>) -> String {
                 None => String::new(),
             };
             format!(
-                "no joint positions bring the tool to its pose: the nearest are {:.3} mm and {:.4} deg off{because}",
+                "no joint positions bring the tool {} to its pose: the nearest are {:.3} mm and {:.4} deg off{because}",
+                case.tools_of(phase),
                 u.position_error * 1e3,
                 u.rotation_error.to_degrees()
             )

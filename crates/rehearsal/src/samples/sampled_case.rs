@@ -6,7 +6,7 @@ use std::sync::Arc;
 use wrasse_dynamics::{BodyId, MassProperties};
 use wrasse_hardware::Sensors;
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Vec3};
-use wrasse_vehicle::{Vehicle, VehicleRobot};
+use wrasse_vehicle::{Vehicle, VehicleRobot, follow, follow_rates};
 
 /// A deviation in SI.
 #[derive(Debug, Clone, Copy)]
@@ -94,6 +94,8 @@ impl Case {
                 _ => {}
             }
         }
+        follow(&self.vehicle.followers, &mut self.start.q);
+        follow_rates(&self.vehicle.followers, &mut self.start.v);
     }
 
     fn move_payloads(&mut self, all: &[Deviation]) {

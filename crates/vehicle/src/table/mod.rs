@@ -4,6 +4,6 @@ mod orientation;
 mod reading;
 mod source;
 
-pub(crate) use orientation::{OrientationFile, QuaternionFile};
+pub use orientation::{AttitudeFile, NotARotation, OrientationFile, QuaternionFile};
 pub(crate) use reading::{Reading, under};
 pub(crate) use source::{ProvenanceFile, SourceFile, Sources, row};

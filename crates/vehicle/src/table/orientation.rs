@@ -3,7 +3,7 @@
 use super::reading::{Reading, under};
 use crate::rotation::from_rpy_deg;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use wrasse_document::Step;
 use wrasse_spatial::{Mat3, Pose, Quat, Vec3};
 
@@ -11,9 +11,9 @@ use wrasse_spatial::{Mat3, Pose, Quat, Vec3};
 const QUATERNION_ROUND_OFF: f64 = 1e-5;
 
 /// How a frame is turned.
-#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema, Serialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub(crate) enum OrientationFile {
+pub enum OrientationFile {
     /// Roll, pitch and yaw (deg): turns about the fixed axes x, then y, then z of the frame it is
     /// turned from.
     RpyDeg([f64; 3]),
@@ -23,17 +23,85 @@ pub(crate) enum OrientationFile {
 }
 
 /// A unit quaternion by its named parts (–).
-#[derive(Debug, Clone, Copy, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct QuaternionFile {
+pub struct QuaternionFile {
     /// Scalar part (–).
-    pub(crate) w: f64,
+    pub w: f64,
     /// Along x (–).
-    pub(crate) x: f64,
+    pub x: f64,
     /// Along y (–).
-    pub(crate) y: f64,
+    pub y: f64,
     /// Along z (–).
-    pub(crate) z: f64,
+    pub z: f64,
+}
+
+/// An attitude, from the axes of the thing to those it is measured in: an orientation, or a unit
+/// quaternion by its parts alone, `{ w = …, x = …, y = …, z = … }`.
+#[derive(Debug, Clone, Copy, Deserialize, JsonSchema, Serialize)]
+#[serde(untagged)]
+pub enum AttitudeFile {
+    /// Roll, pitch and yaw, or a quaternion under its name.
+    Orientation(OrientationFile),
+    /// A unit quaternion by its parts alone.
+    Parts(QuaternionFile),
+}
+
+/// Why four numbers are no rotation: what is wrong with them, and how to mend it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NotARotation {
+    /// What was found.
+    pub message: String,
+    /// What would be a rotation.
+    pub help: String,
+}
+
+impl OrientationFile {
+    /// `R_PB` of a frame B that is turned so from P.
+    ///
+    /// # Errors
+    /// The quaternion has not length 1.
+    pub fn rotation(self) -> Result<Mat3<f64>, NotARotation> {
+        match self {
+            Self::RpyDeg(angles) => Ok(from_rpy_deg(angles)),
+            Self::Quaternion(parts) => parts.rotation(),
+        }
+    }
+}
+
+impl AttitudeFile {
+    /// `R_NB` of a thing with axes B that is turned so in N.
+    ///
+    /// # Errors
+    /// The quaternion has not length 1.
+    pub fn rotation(self) -> Result<Mat3<f64>, NotARotation> {
+        match self {
+            Self::Orientation(orientation) => orientation.rotation(),
+            Self::Parts(parts) => parts.rotation(),
+        }
+    }
+}
+
+impl QuaternionFile {
+    /// The rotation, made of length 1 where the parts are so but for their round-off.
+    fn rotation(self) -> Result<Mat3<f64>, NotARotation> {
+        let quat = Quat::new(self.w, self.x, self.y, self.z);
+        let length = quat.norm();
+        if (length - 1.0).abs() <= QUATERNION_ROUND_OFF {
+            return Ok(quat.normalized().to_matrix());
+        }
+        let help = if length > 0.0 && length.is_finite() {
+            let unit = quat.normalized();
+            let [w, x, y, z] = [unit.w, unit.x, unit.y, unit.z].map(|part| format!("{part:.9}"));
+            format!("of length 1 it would be {{ w = {w}, x = {x}, y = {y}, z = {z} }}")
+        } else {
+            "no rotation is { w = 1, x = 0, y = 0, z = 0 }".into()
+        };
+        Err(NotARotation {
+            message: format!("a quaternion must have length 1, found {length}"),
+            help,
+        })
+    }
 }
 
 impl Reading<'_> {
@@ -55,21 +123,10 @@ impl Reading<'_> {
     }
     /// The rotation of a quaternion, which must have length 1.
     pub(crate) fn quaternion(&mut self, path: &[Step<'_>], parts: QuaternionFile) -> Mat3<f64> {
-        let quat = Quat::new(parts.w, parts.x, parts.y, parts.z);
-        let length = quat.norm();
-        if (length - 1.0).abs() <= QUATERNION_ROUND_OFF {
-            return quat.normalized().to_matrix();
-        }
-        let help = if length > 0.0 && length.is_finite() {
-            let unit = quat.normalized();
-            let [w, x, y, z] = [unit.w, unit.x, unit.y, unit.z].map(|part| format!("{part:.9}"));
-            format!("of length 1 it would be {{ w = {w}, x = {x}, y = {y}, z = {z} }}")
-        } else {
-            "no rotation is { w = 1, x = 0, y = 0, z = 0 }".into()
-        };
-        let message = format!("a quaternion must have length 1, found {length}");
-        self.error(path, message, "not a rotation", &help);
-        Mat3::identity()
+        parts.rotation().unwrap_or_else(|NotARotation { message, help }| {
+            self.error(path, message, "not a rotation", &help);
+            Mat3::identity()
+        })
     }
 }
 

@@ -49,6 +49,7 @@ pub(crate) fn check_postures(
             let help = "give one of them another name";
             reading.error(at!["posture", i, "name"], message, "the second", help);
         }
+        remark_on_ends(reading, i, posture, joints);
         for (key, kind, positions) in [
             ("joints_deg", JointKind::Revolute, &posture.joints_deg),
             ("joints_m", JointKind::Prismatic, &posture.joints_m),
@@ -59,6 +60,41 @@ pub(crate) fn check_postures(
             }
         }
     }
+}
+
+/// Joints that a posture does not name, and that cannot be at zero.
+fn remark_on_ends(
+    reading: &mut Reading<'_>,
+    i: usize,
+    posture: &PostureFile,
+    joints: &[AssemblyJoint],
+) {
+    let is_named = |name: &String| {
+        posture.joints_deg.contains_key(name) || posture.joints_m.contains_key(name)
+    };
+    let own = joints.iter().filter(|joint| joint.mimic.is_none() && !is_named(&joint.name));
+    let at_end = own.filter_map(|joint| {
+        let nearest = joint.limits.nearest_to_zero();
+        let (in_file, unit) = match joint.kind? {
+            JointKind::Revolute => (nearest.to_degrees(), "deg"),
+            JointKind::Prismatic => (nearest, "m"),
+        };
+        // Six decimals: what degrees lose on the way through radians is not shown.
+        let shown = (in_file * 1e6).round() / 1e6;
+        (nearest != 0.0).then(|| format!("'{}' at {shown} {unit}", joint.name))
+    });
+    let told: Vec<String> = at_end.collect();
+    if told.is_empty() {
+        return;
+    }
+    let message = format!(
+        "zero is outside the travel of joints that posture '{}' does not name: it has them at the \
+         nearest end, {}",
+        posture.name,
+        told.join(", ")
+    );
+    let help = "name them to have them elsewhere";
+    reading.warning(at!["posture", i, "name"], message, "leaves joints out", help);
 }
 
 /// Joints that move, by name: how, from where to where (rad or m), and which joint they follow.

@@ -10,6 +10,7 @@ mod until;
 use crate::reading::Reading;
 use crate::toml::MissionFile;
 use crate::toml::control::{ArmLawFile, RATES, TaskFile};
+use crate::toml::pose::leader;
 use grip::{GraspFile, ReleaseFile};
 use hold::{HoldFile, UnloadByPostureFile};
 use move_joints::MoveJointsFile;
@@ -20,7 +21,7 @@ use task::{ArmFile, TaskContext, TaskTable, arm_task};
 use until::{UntilFile, check_cycles, next, until};
 use wrasse_document::{Step as Key, at};
 use wrasse_dynamics::BodyId;
-use wrasse_flight::{ARMS, ArmTask, LONGEST, Next, Phase, STEPS, Step};
+use wrasse_flight::{ARMS, ArmTask, JointTarget, LONGEST, Next, Phase, STEPS, Step};
 use wrasse_rehearsal::{PayloadCase, StepCase};
 use wrasse_vehicle::JOINTS;
 use wrasse_world::GripOffset;
@@ -33,7 +34,7 @@ pub(crate) struct PhaseFile {
     pub(crate) name: String,
     /// The tool goes on a straight line, turning on the shortest way.
     pub(crate) move_tool: Option<MoveToolFile>,
-    /// All joints go to a posture, starting and ending together.
+    /// All joints go to a posture or by so much, starting and ending together.
     pub(crate) move_joints: Option<MoveJointsFile>,
     /// Nothing new is asked for a while.
     pub(crate) hold: Option<HoldFile>,
@@ -226,13 +227,18 @@ fn check_joints(r: &mut Reading<'_>, i: usize, tasks: &Tasks) {
         else {
             continue;
         };
-        let wrasse_flight::JointTarget::Positions(to) = to else { continue };
+        let (JointTarget::Positions(to) | JointTarget::By(to)) = to else { continue };
         let carries = carriers(r, own.tool.body);
-        for j in r.vehicle.robot.joints().filter(|&j| to[j].is_some() && !carries[j]) {
+        // A joint that follows another goes along with it, wherever it is.
+        let is_named = |j: usize| to[j].is_some() && leader(r.vehicle, j).is_none();
+        let others = r.vehicle.robot.joints().filter(|&j| is_named(j) && !carries[j]);
+        for j in others.collect::<Vec<_>>() {
             let name = r.vehicle.joint_names[j].clone();
             let message = format!("joint {name} does not carry the tool of this arm");
             let path = at!["phase", i, "arm", k, "move_joints"];
-            r.error(path, message, "give positions of this arm's joints alone, by to_deg or to_m");
+            let help =
+                "name this arm's joints alone, by to_deg or to_m, joints_by_deg or joints_by_m";
+            r.error(path, message, help);
         }
     }
 }

@@ -1,13 +1,11 @@
-//! `move_joints`: all joints to a posture.
+//! `move_joints`: all joints to a posture, or by so much.
 
 use crate::reading::Reading;
 use crate::toml::MissionFile;
 use crate::toml::control::ArmLawFile;
 use crate::toml::phase::move_tool::{ShapeFile, shape};
 use crate::toml::phase::{duration, no_timing};
-use crate::toml::pose::{
-    AttitudeFile, AxesFile, attitude, axes, by_joint, place_of_position, posture, vector,
-};
+use crate::toml::pose::{AxesFile, attitude, axes, by_joint, place_of_position, posture, vector};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -16,7 +14,7 @@ use wrasse_dynamics::JointKind;
 use wrasse_flight::trajectory::MotionLimits;
 use wrasse_flight::{JointTarget, JointTiming, Phase};
 use wrasse_spatial::Pose;
-use wrasse_vehicle::JOINTS;
+use wrasse_vehicle::{AttitudeFile, JOINTS, follow};
 
 /// A move of all joints.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -30,6 +28,12 @@ pub(crate) struct MoveJointsFile {
     /// Positions of sliding joints by name.
     #[serde(default)]
     pub(crate) to_m: BTreeMap<String, f64>,
+    /// Turns of turning joints by name, from where each is as the phase begins; the others stay.
+    #[serde(default)]
+    pub(crate) joints_by_deg: BTreeMap<String, f64>,
+    /// Travels of sliding joints by name, from where each is as the phase begins.
+    #[serde(default)]
+    pub(crate) joints_by_m: BTreeMap<String, f64>,
     /// A pose of the tool, for which the inverse kinematics of the law finds the joints.
     pub(crate) to_tool: Option<ToolPoseFile>,
     /// Duration of a quintic from rest to rest.
@@ -84,22 +88,17 @@ pub(super) fn move_joints(
 ) -> Option<Phase<f64, JOINTS>> {
     let here = [above, at!["move_joints"]].concat();
     let path = |key| [&here[..], at![key]].concat();
-    let by_name = m.to_posture.is_some() || !m.to_deg.is_empty() || !m.to_m.is_empty();
-    let to = match (&m.to_tool, by_name) {
-        (Some(pose), false) => tool_target(r, &path("to_tool"), pose, law),
-        (None, true) => {
-            let mut to = [None; JOINTS];
-            if let Some(name) = &m.to_posture {
-                to = posture(r, &path("to_posture"), name).map_or(to, |q| q.map(Some));
-            }
-            by_joint(r, &path("to_deg"), &m.to_deg, JointKind::Revolute, |j, x| to[j] = Some(x));
-            by_joint(r, &path("to_m"), &m.to_m, JointKind::Prismatic, |j, x| to[j] = Some(x));
-            check_travel(r, &here, &to);
-            JointTarget::Positions(to)
-        }
+    let to_places = m.to_posture.is_some() || !m.to_deg.is_empty() || !m.to_m.is_empty();
+    let by_amounts = !m.joints_by_deg.is_empty() || !m.joints_by_m.is_empty();
+    let to = match (&m.to_tool, to_places, by_amounts) {
+        (Some(pose), false, false) => tool_target(r, &path("to_tool"), pose, law),
+        (None, true, false) => JointTarget::Positions(positions(r, &here, m)),
+        (None, false, true) => JointTarget::By(amounts(r, &here, m)),
         _ => {
-            let message = "joints are moved to positions or to a pose of the tool".into();
-            let help = "give to_posture, to_deg or to_m; or to_tool = { … }";
+            let message =
+                "joints are moved to positions, by amounts or to a pose of the tool".into();
+            let help = "give to_posture, to_deg or to_m; or joints_by_deg or joints_by_m; or \
+                        to_tool = { … }";
             r.error(&here, message, help);
             return None;
         }
@@ -127,8 +126,26 @@ fn tool_target(
                 .into();
         r.error(path, message, "use move_tool, or axes = \"base\", or another arm_law");
     }
-    let quat = attitude(r, &[path, at!["attitude"]].concat(), Some(pose.attitude));
-    JointTarget::Tool(Pose::from_quat(quat, vector(pose.position_m)), axes(pose.axes))
+    let R = attitude(r, &[path, at!["attitude"]].concat(), Some(pose.attitude));
+    JointTarget::Tool(Pose::new(R, vector(pose.position_m)), axes(pose.axes))
+}
+
+/// Where joints are sent (rad or m); one that follows another goes where that one has it.
+fn positions(r: &mut Reading<'_>, here: &[Step<'_>], m: &MoveJointsFile) -> [Option<f64>; JOINTS] {
+    let path = |key| [here, at![key]].concat();
+    let mut to = [None; JOINTS];
+    if let Some(name) = &m.to_posture {
+        to = posture(r, &path("to_posture"), name).map_or(to, |q| q.map(Some));
+    }
+    by_joint(r, &path("to_deg"), &m.to_deg, JointKind::Revolute, |j, x| to[j] = Some(x));
+    by_joint(r, &path("to_m"), &m.to_m, JointKind::Prismatic, |j, x| to[j] = Some(x));
+    let mut q = to.map(Option::unwrap_or_default);
+    follow(&r.vehicle.followers, &mut q);
+    for follower in &r.vehicle.followers {
+        to[follower.joint] = to[follower.leader].map(|_| q[follower.joint]);
+    }
+    check_travel(r, here, &to);
+    to
 }
 
 fn check_travel(r: &mut Reading<'_>, above: &[Step<'_>], to: &[Option<f64>; JOINTS]) {
@@ -139,9 +156,46 @@ fn check_travel(r: &mut Reading<'_>, above: &[Step<'_>], to: &[Option<f64>; JOIN
             let [q, lower, upper] = [q, lower, upper].map(|x| r.shown(j, x));
             let message =
                 format!("joint {name} shall go to {q}, outside its travel from {lower} to {upper}");
-            let place = place_of_position(r, above, ["to_deg", "to_m", "to_posture"], name);
+            let place = place_of_position(r, above, ["to_deg", "to_m", "to_posture"], j);
             let help = "choose a position within the travel";
             r.error(&place, message, help);
+        }
+    }
+}
+
+/// How far joints are moved (rad or m); one that follows another moves as that one makes it.
+fn amounts(r: &mut Reading<'_>, here: &[Step<'_>], m: &MoveJointsFile) -> [Option<f64>; JOINTS] {
+    let path = |key| [here, at![key]].concat();
+    let mut by = [None; JOINTS];
+    let (turning, sliding) = (JointKind::Revolute, JointKind::Prismatic);
+    by_joint(r, &path("joints_by_deg"), &m.joints_by_deg, turning, |j, x| by[j] = Some(x));
+    by_joint(r, &path("joints_by_m"), &m.joints_by_m, sliding, |j, x| by[j] = Some(x));
+    for follower in &r.vehicle.followers {
+        by[follower.joint] = by[follower.leader].map(|x| follower.ratio * x);
+    }
+    check_amounts(r, here, &by);
+    by
+}
+
+/// No joint can move farther than from one end of its travel to the other. Where it is as the phase
+/// begins is known to the planning, which looks at the ends themselves.
+fn check_amounts(r: &mut Reading<'_>, above: &[Step<'_>], by: &[Option<f64>; JOINTS]) {
+    for j in r.vehicle.robot.joints() {
+        let (Some(x), Some((lower, upper))) = (by[j], r.vehicle.limits[j].travel) else { continue };
+        // The ends were converted from degrees each: their distance has the round-off of both.
+        if x.abs() > (upper - lower) * (1.0 + 1e-12) {
+            let name = &r.vehicle.joint_names[j];
+            let [x, lower, upper, whole] = [x, lower, upper, upper - lower].map(|x| r.shown(j, x));
+            let message = format!(
+                "joint {name} shall move by {x}, farther than its whole travel from {lower} to {upper}"
+            );
+            let keys = ["joints_by_deg", "joints_by_m", "joints_by_deg"];
+            let place = place_of_position(r, above, keys, j);
+            r.error(
+                &place,
+                message,
+                &format!("at most {whole}, less where it does not start at an end"),
+            );
         }
     }
 }

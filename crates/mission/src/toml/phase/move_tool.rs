@@ -3,14 +3,14 @@
 use crate::reading::Reading;
 use crate::toml::MissionFile;
 use crate::toml::phase::{duration, no_timing};
-use crate::toml::pose::{AttitudeFile, AxesFile, attitude, axes, radians, vector};
+use crate::toml::pose::{AxesFile, attitude, axes, radians, vector};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use wrasse_document::{Step, at};
 use wrasse_flight::trajectory::{MotionLimits, ProfileShape};
 use wrasse_flight::{Phase, Target, Timing};
 use wrasse_spatial::{Pose, Vec3};
-use wrasse_vehicle::JOINTS;
+use wrasse_vehicle::{AttitudeFile, JOINTS};
 
 /// A straight line of the tool.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -80,10 +80,9 @@ pub(super) fn move_tool(
                 .turn_by_deg
                 .map_or(Vec3::zero(), |turn| radians(few_turns(r, &path("turn_by_deg"), turn))),
         },
-        (false, Some((position, quat))) => Target::To(Pose::from_quat(
-            attitude(r, &path("to_attitude"), Some(quat)),
-            vector(position),
-        )),
+        (false, Some((position, quat))) => {
+            Target::To(Pose::new(attitude(r, &path("to_attitude"), Some(quat)), vector(position)))
+        }
         _ => {
             let message = "a tool is moved either by something or to a pose".into();
             let help =

@@ -25,7 +25,7 @@ pub(crate) struct ArmFile {
     pub(crate) task: Option<TaskFile>,
     /// The tool goes on a straight line, turning on the shortest way.
     pub(crate) move_tool: Option<MoveToolFile>,
-    /// The arm's joints go to a posture, starting and ending together.
+    /// The arm's joints go to a posture or by so much, starting and ending together.
     pub(crate) move_joints: Option<MoveJointsFile>,
     /// Nothing new is asked for a while.
     pub(crate) hold: Option<HoldFile>,
