@@ -11,6 +11,8 @@ const DURATION: f64 = 10.0;
 const STEP: f64 = 1e-3;
 /// The ledger is brought up to date as often (s).
 const PERIOD: f64 = 0.1;
+/// So many of them make the duration.
+const PERIODS: usize = 100;
 /// Largest rates at the start: joints that turn and that slide (rad/s, m/s), base (rad/s, m/s).
 const RATES: [f64; 4] = [0.5, 0.1, 0.05, 0.1];
 /// Relative drift that is told (–). Where the fastest motion takes many steps the drift is round-off: at
@@ -52,7 +54,7 @@ pub fn coast(vehicle: &Vehicle, seed: u64) -> Coast {
     });
     let mut ledger = scene.open_ledger();
     let mut broke_down = None;
-    for _ in 0..(DURATION / PERIOD).round() as usize {
+    for _ in 0..PERIODS {
         scene.begin_period();
         if scene.advance(PERIOD).is_err() {
             broke_down = Some(scene.time());

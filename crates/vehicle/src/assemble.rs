@@ -42,7 +42,8 @@ pub(crate) struct AssembledRobot {
 pub(crate) fn assemble(assembly: &Assembly) -> Result<AssembledRobot, Vec<Complaint>> {
     let mut found = Findings::within(&assembly.files);
     let links = &assembly.links;
-    let numbers = links.iter().fold(true, |fine, link| check_numbers(link, &mut found) && fine);
+    // Each is looked at: the complaints of all come at once.
+    let faulty = links.iter().filter(|link| !check_numbers(link, &mut found)).count();
     let joints = &settle_followers(assembly.joints.clone(), &mut found);
     for joint in joints {
         check_joint(joint, &mut found);
@@ -56,7 +57,7 @@ pub(crate) fn assemble(assembly: &Assembly) -> Result<AssembledRobot, Vec<Compla
                     [[include]] of this file";
         found.error(&first_too_many.at, message, "one too many", help);
     }
-    let Some(tree) = tree.filter(|_| moving <= JOINTS && numbers) else {
+    let Some(tree) = tree.filter(|_| moving <= JOINTS && faulty == 0) else {
         check_single_links(links, joints, &mut found);
         return Err(found.into_complaints());
     };

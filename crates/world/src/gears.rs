@@ -82,15 +82,12 @@ impl<const J: usize> Leaders<J> {
         let mut leaders = Self { count: 0, joint: [0; J], effort: [0.0; J] };
         for follower in followers {
             let JointDrive::Effort(effort) = given[follower.leader] else { continue };
-            let k = match leaders.place(follower.leader) {
-                Some(k) => k,
-                None => {
-                    let k = leaders.count;
-                    (leaders.joint[k], leaders.effort[k]) = (follower.leader, effort);
-                    leaders.count += 1;
-                    k
-                }
-            };
+            let known = leaders.place(follower.leader);
+            let k = known.unwrap_or(leaders.count);
+            if known.is_none() {
+                (leaders.joint[k], leaders.effort[k]) = (follower.leader, effort);
+                leaders.count += 1;
+            }
             if let JointDrive::Effort(on_follower) = given[follower.joint] {
                 leaders.effort[k] += follower.ratio * on_follower;
             }

@@ -35,8 +35,8 @@ impl Arm {
         Self::new((robot.with_payload(&tool, &cube(mass, vec3(0.0, 0.1, -0.2))), tool))
     }
     /// ATLAS-class with a load, an oblique arm on a light base, and an arm beside another.
-    pub(crate) fn three() -> [Self; 3] {
-        [Self::laden(200.0), Self::new(upright_arm(0.05)), Self::new(two_arms())]
+    pub(crate) fn three() -> Vec<Self> {
+        vec![Self::laden(200.0), Self::new(upright_arm(0.05)), Self::new(two_arms())]
     }
     /// The number of the joint `i` of those that carry the tool.
     pub(crate) fn own(&self, i: usize) -> usize {

@@ -81,8 +81,8 @@ pub(crate) fn check_body(
     };
     let together = whole.wrong();
     if together.is_none() {
-        for (part, wrong) in parts.iter().zip(alone) {
-            tell_of_part(*part, wrong, found);
+        for (part, wrong) in parts.iter().zip(&alone) {
+            tell_of_part(*part, wrong.as_ref(), found);
         }
     }
     tell(parts, together, found);
@@ -220,14 +220,14 @@ fn refuse_or_accept(
 }
 
 /// What is wrong with a link alone, when the body that it is part of can be.
-fn tell_of_part((link, matter): (&Link, &Matter), wrong: Option<Wrong>, found: &mut Findings) {
+fn tell_of_part((link, matter): (&Link, &Matter), wrong: Option<&Wrong>, found: &mut Findings) {
     let what = match wrong {
         None | Some(Wrong::Rounded(..)) => return,
         Some(Wrong::NoMass) => format!("'{}' has an inertia and no mass", link.name),
         Some(Wrong::Indefinite(moments)) => {
-            format!("principal moments of '{}' are {} kg·m²", link.name, listed(moments))
+            format!("principal moments of '{}' are {} kg·m²", link.name, listed(*moments))
         }
-        Some(Wrong::Triangle(moments)) => triangle(&format!("'{}'", link.name), moments),
+        Some(Wrong::Triangle(moments)) => triangle(&format!("'{}'", link.name), *moments),
     };
     let help = "it is fixed to others, and together they are a body that can be: used as it stands";
     found.warning(&matter.inertia_at, what, "no rigid body alone", help);

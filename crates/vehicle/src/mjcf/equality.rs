@@ -99,20 +99,16 @@ pub(super) fn follow(
     for coupling in couplings {
         let offset = reference(&coupling.follower) + coupling.offset
             - coupling.ratio * reference(&coupling.leader);
-        let mut of_name = joints.iter_mut().filter(|joint| joint.name == coupling.follower);
-        match of_name.next() {
-            Some(joint) => {
-                joint.mimic = Some(Mimic {
-                    leader: coupling.leader.clone(),
-                    at: coupling.leader_at.clone(),
-                    ratio: coupling.ratio,
-                    offset,
-                });
-            }
-            None => {
-                let message = format!("no joint is called '{}'", coupling.follower);
-                reading.found.error(&coupling.at, message, "no such joint", "");
-            }
-        }
+        let Some(joint) = joints.iter_mut().find(|joint| joint.name == coupling.follower) else {
+            let message = format!("no joint is called '{}'", coupling.follower);
+            reading.found.error(&coupling.at, message, "no such joint", "");
+            continue;
+        };
+        joint.mimic = Some(Mimic {
+            leader: coupling.leader.clone(),
+            at: coupling.leader_at.clone(),
+            ratio: coupling.ratio,
+            offset,
+        });
     }
 }
