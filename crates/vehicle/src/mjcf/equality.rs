@@ -96,11 +96,12 @@ pub(super) fn follow(
     reading: &mut Reading<'_>,
 ) {
     let reference = |name: &str| references.get(name).copied().unwrap_or(0.0);
+    let mut by_name: BTreeMap<String, &mut AssemblyJoint> =
+        joints.iter_mut().rev().map(|joint| (joint.name.clone(), joint)).collect();
     for coupling in couplings {
         let offset = reference(&coupling.follower) + coupling.offset
             - coupling.ratio * reference(&coupling.leader);
-        let mut of_name = joints.iter_mut().filter(|joint| joint.name == coupling.follower);
-        match of_name.next() {
+        match by_name.get_mut(&coupling.follower) {
             Some(joint) => {
                 joint.mimic = Some(Mimic {
                     leader: coupling.leader.clone(),

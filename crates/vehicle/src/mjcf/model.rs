@@ -231,14 +231,15 @@ fn scale(links: &mut [Link], total: Option<f64>) {
 /// MuJoCo adds a rotor's inertia to the diagonal of the mass matrix, which no rigid body does.
 fn warn_of_armatures(armatures: &[(String, Range<usize>)], reading: &mut Reading<'_>) {
     let Some((_, first)) = armatures.first() else { return };
-    let names: Vec<_> = armatures.iter().map(|(name, _)| name.as_str()).collect();
-    let what = if names.len() == 1 { "joint" } else { "joints" };
+    let names: Vec<_> = armatures.iter().take(12).map(|(name, _)| name.as_str()).collect();
+    let count = armatures.len();
+    let what = if count == 1 { "joint" } else { "joints" };
     let message = format!(
-        "the armature of {} {what} is not modelled: the mass matrix is that of the bodies alone",
-        names.len()
+        "the armature of {count} {what} is not modelled: the mass matrix is that of the bodies alone"
     );
+    let more = if count > names.len() { ", …" } else { "" };
     let help = format!(
-        "MuJoCo adds a rotor's inertia to the diagonal of its mass matrix; here it is left out of {}",
+        "MuJoCo adds a rotor's inertia to the diagonal of its mass matrix; here it is left out of {}{more}",
         names.join(", ")
     );
     reading.found.warning(first, message, "and the others", &help);
