@@ -34,7 +34,9 @@ pub(crate) fn tree(links: &[Link], joints: &[AssemblyJoint], found: &mut Finding
     let all_named = links.iter().all(|link| !link.name.is_empty());
     let edges: Vec<_> = joints.iter().map(|j| ends(j, &names, all_named, found)).collect();
     let carriers = carriers(links, joints, &edges, found);
-    let looped = complain_of_loops(links, joints, &edges, &carriers, found);
+    // Two links of one name may look like a loop, and have had their complaint.
+    let looped =
+        names.len() == links.len() && complain_of_loops(links, joints, &edges, &carriers, found);
     let roots = roots(joints, &names, &edges, &carriers, found);
     if roots.len() > 1 {
         complain_of_roots(links, &roots, found);
@@ -63,7 +65,12 @@ fn first_of_each_name<'a>(
         if let Some((_, first_at)) = first.get(name) {
             let line = found.line(first_at.start, at);
             let message = format!("two {kind}s are called '{name}'; the other is on {line}");
-            found.error(at, message, "the second", "give one of them another name");
+            let help = if line.contains(" of ") {
+                "give one of them another name, or the [[include]] of its file a `prefix`"
+            } else {
+                "give one of them another name"
+            };
+            found.error(at, message, "the second", help);
         } else {
             first.insert(name, (place, at));
         }
