@@ -40,7 +40,10 @@ pub(crate) struct AssembledRobot {
 pub(crate) fn assemble(assembly: &Assembly) -> Result<AssembledRobot, Vec<Complaint>> {
     let mut found = Findings::within(&assembly.files);
     let links = &assembly.links;
-    let numbers = links.iter().fold(true, |fine, link| check_numbers(link, &mut found) && fine);
+    let mut numbers = true;
+    for link in links {
+        numbers &= check_numbers(link, &mut found);
+    }
     let joints = &settle_followers(assembly.joints.clone(), &mut found);
     for joint in joints {
         check_joint(joint, &mut found);

@@ -236,7 +236,9 @@ impl AssemblyJoint {
             &mut self.axis_at,
             &mut self.limits_at,
         ];
-        places.into_iter().for_each(|place| moved(place, by));
+        for place in places {
+            moved(place, by);
+        }
         if let Some(mimic) = &mut self.mimic {
             moved(&mut mimic.at, by);
         }

@@ -1,14 +1,16 @@
 //! Models that were made to break a reader: each has a clear complaint, in a time that grows with its
 //! length and no faster.
 
-use std::time::{Duration, Instant};
+use std::sync::mpsc::channel;
+use std::thread::spawn;
+use std::time::Duration;
 use wrasse_document::{Complaint, Severity};
 use wrasse_vehicle::read_vehicle;
 
 /// Enough for whatever grows with the square to take minutes.
 const MANY: usize = 40_000;
-/// Each takes 0.1 s to 1 s, by itself on one core, optimised at level 1.
-const PATIENCE: Duration = Duration::from_secs(10);
+/// All tests together took 9 s on two busy cores.
+const PATIENCE: Duration = Duration::from_secs(20);
 
 const MATTER: &str = r#"<inertial><mass value="1"/>
     <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>"#;
@@ -30,18 +32,18 @@ fn link(name: usize) -> String {
 }
 
 /// The errors about a file, within the time that anybody waits.
-fn errors(name: &str, text: &str) -> Vec<Complaint> {
-    let begin = Instant::now();
-    let told = match read_vehicle(name, text) {
-        Ok(_) => vec![],
-        Err(complaints) => complaints,
-    };
-    let took = begin.elapsed();
-    assert!(took < PATIENCE, "{took:?}");
+fn errors(name: &'static str, text: &str) -> Vec<Complaint> {
+    let (done, waiting) = channel();
+    let text = text.to_owned();
+    spawn(move || {
+        // Nobody waits any more where this fails.
+        let _ = done.send(read_vehicle(name, text).err().unwrap_or_default());
+    });
+    let told = waiting.recv_timeout(PATIENCE).expect("an answer in time, and no panic");
     told.into_iter().filter(|c| c.severity == Severity::Error).collect()
 }
 
-fn first(name: &str, text: &str) -> String {
+fn first(name: &'static str, text: &str) -> String {
     errors(name, text).first().map_or(String::new(), |complaint| complaint.message.clone())
 }
 

@@ -97,7 +97,7 @@ pub(crate) fn check_body(
     let together = whole.wrong();
     if together.is_none() {
         for (part, wrong) in parts.iter().zip(alone) {
-            tell_of_part(*part, wrong, found);
+            tell_of_part(*part, wrong.as_ref(), found);
         }
     }
     tell(parts, together, found);
@@ -235,14 +235,14 @@ fn refuse_or_accept(
 }
 
 /// What is wrong with a link alone, when the body that it is part of can be.
-fn tell_of_part((link, matter): (&Link, &Matter), wrong: Option<Wrong>, found: &mut Findings) {
+fn tell_of_part((link, matter): (&Link, &Matter), wrong: Option<&Wrong>, found: &mut Findings) {
     let what = match wrong {
         None | Some(Wrong::Rounded(..)) => return,
         Some(Wrong::NoMass) => format!("'{}' has an inertia and no mass", link.name),
         Some(Wrong::Indefinite(moments)) => {
-            format!("principal moments of '{}' are {} kg·m²", link.name, listed(moments))
+            format!("principal moments of '{}' are {} kg·m²", link.name, listed(*moments))
         }
-        Some(Wrong::Triangle(moments)) => triangle(&format!("'{}'", link.name), moments),
+        Some(Wrong::Triangle(moments)) => triangle(&format!("'{}'", link.name), *moments),
     };
     let help = "it is fixed to others, and together they are a body that can be: used as it stands";
     found.warning(&matter.inertia_at, what, "no rigid body alone", help);
@@ -291,8 +291,8 @@ fn eigenvalues(I: Sym3<f64>) -> Option<[f64; 3]> {
 pub(crate) fn check_joint(joint: &AssemblyJoint, found: &mut Findings) {
     let name = &joint.name;
     let X = &joint.X_PC;
-    let rows = X.rotation.rows.iter().chain([&X.translation]);
-    if let Some((wrong, help)) = rows.filter_map(|row| wrong_size(&row.to_array())).next() {
+    let mut rows = X.rotation.rows.iter().chain([&X.translation]);
+    if let Some((wrong, help)) = rows.find_map(|row| wrong_size(&row.to_array())) {
         let message = format!("the pose of joint '{name}' on its parent is {wrong}");
         found.error(&joint.at, message, wrong, help);
     }

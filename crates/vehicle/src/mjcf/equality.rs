@@ -101,19 +101,16 @@ pub(super) fn follow(
     for coupling in couplings {
         let offset = reference(&coupling.follower) + coupling.offset
             - coupling.ratio * reference(&coupling.leader);
-        match by_name.get_mut(&coupling.follower) {
-            Some(joint) => {
-                joint.mimic = Some(Mimic {
-                    leader: coupling.leader.clone(),
-                    at: coupling.leader_at.clone(),
-                    ratio: coupling.ratio,
-                    offset,
-                });
-            }
-            None => {
-                let message = format!("no joint is called '{}'", coupling.follower);
-                reading.found.error(&coupling.at, message, "no such joint", "");
-            }
+        if let Some(joint) = by_name.get_mut(&coupling.follower) {
+            joint.mimic = Some(Mimic {
+                leader: coupling.leader.clone(),
+                at: coupling.leader_at.clone(),
+                ratio: coupling.ratio,
+                offset,
+            });
+        } else {
+            let message = format!("no joint is called '{}'", coupling.follower);
+            reading.found.error(&coupling.at, message, "no such joint", "");
         }
     }
 }
