@@ -57,7 +57,11 @@ pub(crate) fn text_up_to(path: &Path, most: u64) -> Result<String, Failure> {
         Unreadable::System(error) if error.kind() == std::io::ErrorKind::NotFound => {
             format!("there is no file {}", name.display())
         }
-        Unreadable::NotText { .. } => format!("{} is not UTF-8 text", name.display()),
+        Unreadable::NotText { .. } => format!(
+            "{} is not UTF-8 text; XML in another encoding says so: <?xml version=\"1.0\" \
+             encoding=\"ISO-8859-1\"?>",
+            name.display()
+        ),
         why => format!("{} cannot be read: {why}", name.display()),
     };
     let read = if path == Path::new(STDIN) {

@@ -24,12 +24,12 @@ fn with(encoding: &'static Encoding, bytes: &[u8]) -> Result<String, usize> {
     text.map(std::borrow::Cow::into_owned).ok_or_else(valid)
 }
 
-/// What `<?xml … encoding="…"?>` says, if the bytes begin so: in letters of one byte, or of two without a
-/// byte order mark.
+/// What `<?xml … encoding="…"?>` says, if the bytes begin so. XML in letters of two bytes without a byte
+/// order mark shows by its first two.
 fn declared(bytes: &[u8]) -> Option<&'static Encoding> {
     match bytes.get(..4)? {
-        [b'<', 0, b'?', 0] => return Some(encoding_rs::UTF_16LE),
-        [0, b'<', 0, b'?'] => return Some(encoding_rs::UTF_16BE),
+        [b'<', 0, second, 0] if *second != 0 => return Some(encoding_rs::UTF_16LE),
+        [0, b'<', 0, second] if *second != 0 => return Some(encoding_rs::UTF_16BE),
         _ => {}
     }
     let head = bytes.get(..bytes.len().min(DECLARATION))?;

@@ -8,6 +8,7 @@ use crate::read_vehicle::{Nesting, read_model};
 use crate::rotation::from_rpy_deg;
 use crate::toml::{fix_joints, said_of_fix};
 use crate::vehicle::ShapeKind;
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
 use wrasse_document::{Complaint, Source};
@@ -64,8 +65,12 @@ fn written(model: &Model, file: &str) -> String {
         writeln!(out, "summary = {}", quoted(&format!("{}, converted from {file}", model.name)));
     let source = format!("converted from {file}, which does not say where its numbers come from");
     let _ = writeln!(out, "source.assumed = {}", quoted(&source));
+    let mut drawn: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    for outline in &model.assembly.outlines {
+        drawn.entry(&outline.link).or_default().push(shape(outline));
+    }
     for link in &model.assembly.links {
-        body(&mut out, link, &model.assembly.outlines);
+        body(&mut out, link, drawn.get(&*link.name));
     }
     for given in &model.assembly.joints {
         joint(&mut out, given);
@@ -85,14 +90,12 @@ fn written(model: &Model, file: &str) -> String {
     out
 }
 
-fn body(out: &mut String, link: &Link, outlines: &[Outline]) {
+fn body(out: &mut String, link: &Link, shapes: Option<&Vec<String>>) {
     let _ = writeln!(out, "\n[[body]]\nname = {}", quoted(&link.name));
     if let Some(matter) = &link.matter {
         matter_of(out, matter);
     }
-    let mine: Vec<_> = outlines.iter().filter(|outline| outline.link == link.name).collect();
-    if !mine.is_empty() {
-        let shapes: Vec<_> = mine.iter().map(|outline| shape(outline)).collect();
+    if let Some(shapes) = shapes {
         let _ = writeln!(out, "shape = [{}]", shapes.join(", "));
     }
 }
@@ -198,7 +201,7 @@ fn limits(out: &mut String, joint: &AssemblyJoint, kind: JointKind) {
 fn posture(
     out: &mut String,
     name: &str,
-    positions: &std::collections::BTreeMap<String, f64>,
+    positions: &BTreeMap<String, f64>,
     joints: &[AssemblyJoint],
 ) {
     let _ = writeln!(out, "\n[[posture]]\nname = {}", quoted(name));

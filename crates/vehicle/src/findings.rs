@@ -3,10 +3,11 @@
 use crate::deep::Place;
 use std::ops::Range;
 use std::sync::Arc;
-use wrasse_document::{Complaint, Severity, Source};
+use wrasse_document::{Complaint, Severity, Source, closest};
 
-/// Complaints that are shown of a file, and as many again for those that others come before.
-const MANY: usize = 200;
+/// Names that are compared in one reading to guess what was meant by others: more take longer than
+/// anybody waits, and a file that needs more has one mistake many times.
+const MOST_GUESSES: usize = 50_000;
 
 /// The files of one reading, end to end: a byte range among them tells file and place.
 ///
@@ -39,7 +40,7 @@ impl SourceFiles {
         let mut files = Self::default();
         let mut begin = 0;
         for (source, at) in parts {
-            let ends = source.text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+            let ends = source.text.match_indices('\n');
             let lines = std::iter::once(0).chain(ends.map(|(at, _)| at + 1)).collect();
             let length = at.len();
             files.pieces.push(Piece { source, at, begin, lines: Arc::new(lines) });
@@ -90,6 +91,8 @@ impl SourceFiles {
 pub(crate) struct Findings {
     sources: SourceFiles,
     list: Vec<Complaint>,
+    /// Names that were compared so far.
+    guesses: usize,
 }
 
 impl Findings {
@@ -99,7 +102,7 @@ impl Findings {
     }
     /// None yet, of several files.
     pub(crate) fn within(sources: &SourceFiles) -> Self {
-        Self { sources: sources.clone(), list: Vec::new() }
+        Self { sources: sources.clone(), list: Vec::new(), guesses: 0 }
     }
     /// The file cannot be used.
     pub(crate) fn error(&mut self, at: &Range<usize>, message: String, label: &str, help: &str) {
@@ -147,10 +150,14 @@ impl Findings {
             None => format!("line {line}"),
         }
     }
-    /// Whether there are more than anybody reads: to look for what was meant by each takes the time of
-    /// all names, and is not worth it any more.
-    pub(crate) fn are_many(&self) -> bool {
-        self.list.len() > MANY
+    /// The name that was meant by a word, if one is near enough and not too many were compared before.
+    pub(crate) fn meant<'a>(
+        &mut self,
+        word: &str,
+        among: impl ExactSizeIterator<Item = &'a str>,
+    ) -> Option<&'a str> {
+        self.guesses = self.guesses.saturating_add(among.len());
+        if self.guesses > MOST_GUESSES { None } else { closest(word, among) }
     }
     /// Whether the file can still be used.
     pub(crate) fn without_error(&self) -> bool {

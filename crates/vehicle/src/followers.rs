@@ -4,7 +4,6 @@ use crate::assembly::AssemblyJoint;
 use crate::figures::figures;
 use crate::findings::Findings;
 use std::collections::BTreeMap;
-use wrasse_document::closest;
 use wrasse_hardware::Follower;
 
 /// The joints, each follower with a leader that has a drive of its own: who follows a follower follows
@@ -14,77 +13,123 @@ pub(crate) fn settle_followers(
     mut joints: Vec<AssemblyJoint>,
     found: &mut Findings,
 ) -> Vec<AssemblyJoint> {
-    let by_name: BTreeMap<String, usize> =
-        joints.iter().enumerate().rev().map(|(place, joint)| (joint.name.clone(), place)).collect();
-    for follower in 0..joints.len() {
+    if joints.iter().all(|joint| joint.mimic.is_none()) {
+        return joints;
+    }
+    for (follower, lead) in leads(&joints, found).into_iter().enumerate() {
         if joints[follower].mimic.is_none() {
             continue;
         }
-        match lead(follower, &joints, &by_name, found) {
-            Some(Lead::Joint { leader, ratio, offset }) => {
+        match lead {
+            Lead::Joint { leader, ratio, offset } => {
                 warn_of_travel(&joints[follower], &joints[leader], (ratio, offset), found);
                 let name = joints[leader].name.clone();
                 if let Some(mimic) = &mut joints[follower].mimic {
                     (mimic.leader, mimic.ratio, mimic.offset) = (name, ratio, offset);
                 }
             }
-            Some(Lead::Fixed(q)) => joints[follower].fixed_at(q),
-            None => joints[follower].mimic = None,
+            Lead::Fixed(q) => joints[follower].fixed_at(q),
+            Lead::Nothing => joints[follower].mimic = None,
         }
     }
     joints
 }
 
 /// What a joint follows in the end.
+#[derive(Debug, Clone, Copy)]
 enum Lead {
-    /// A joint with a drive: `q = ratio × q of it + offset`.
+    /// A joint with a drive, which may be itself: `q = ratio × q of it + offset`.
     Joint { leader: usize, ratio: f64, offset: f64 },
     /// Nothing that moves: it stands at this travel (rad or m).
     Fixed(f64),
+    /// Nothing: there was a complaint.
+    Nothing,
 }
 
-/// Nothing after a complaint.
-fn lead(
-    follower: usize,
-    joints: &[AssemblyJoint],
-    by_name: &BTreeMap<String, usize>,
-    found: &mut Findings,
-) -> Option<Lead> {
-    let (mut at, mut ratio, mut offset) = (follower, 1.0, 0.0);
-    // A way that is longer than there are joints goes in a ring.
-    for _ in 0..=joints.len() {
-        let joint = &joints[at];
-        if joint.kind.is_none() {
-            return Some(Lead::Fixed(offset));
-        }
-        let Some(mimic) = &joint.mimic else {
-            let moves = ratio != 0.0 && at != follower;
-            let to_joint = Lead::Joint { leader: at, ratio, offset };
-            return Some(if moves { to_joint } else { Lead::Fixed(offset) });
-        };
-        let Some(&next) = by_name.get(&mimic.leader) else {
-            let message =
-                format!("joint '{}' follows '{}', which is no joint", joint.name, mimic.leader);
-            let help = match closest(&mimic.leader, by_name.keys().map(String::as_str)) {
-                Some(close) => format!("did you mean '{close}'?"),
-                None => "name a joint of this vehicle".into(),
-            };
-            // Told once, of the joint that names it.
-            if at == follower {
-                found.error(&mimic.at, message, "no such joint", &help);
+/// What each joint follows in the end. Every joint is looked at once, however long the chains are.
+fn leads(joints: &[AssemblyJoint], found: &mut Findings) -> Vec<Lead> {
+    let by_name: BTreeMap<&str, usize> =
+        joints.iter().enumerate().rev().map(|(place, joint)| (&*joint.name, place)).collect();
+    let mut settled: Vec<Option<Lead>> = vec![None; joints.len()];
+    let mut asked_from: Vec<Option<usize>> = vec![None; joints.len()];
+    for start in 0..joints.len() {
+        // Up to a joint that is settled, then back.
+        let (mut way, mut at) = (vec![], start);
+        let mut lead = loop {
+            if let Some(lead) = settled[at] {
+                break lead;
             }
-            return None;
+            if asked_from[at] == Some(start) {
+                tell_of_ring(&joints[at], found);
+                break Lead::Nothing;
+            }
+            asked_from[at] = Some(start);
+            let lead = match next(&joints[at], &by_name, found) {
+                Next::Leader(leader) => {
+                    way.push(at);
+                    at = leader;
+                    continue;
+                }
+                Next::Drive => Lead::Joint { leader: at, ratio: 1.0, offset: 0.0 },
+                Next::End(lead) => lead,
+            };
+            settled[at] = Some(lead);
+            break lead;
         };
-        // q = ratio × (m q' + o) + offset.
-        offset += ratio * mimic.offset;
-        ratio *= mimic.ratio;
-        at = next;
+        while let Some(follower) = way.pop() {
+            lead = followed(&joints[follower], lead);
+            settled[follower] = Some(lead);
+        }
     }
-    let mimic_at = joints[follower].mimic.as_ref().map_or(0..0, |mimic| mimic.at.clone());
-    let message =
-        format!("joint '{}' follows itself, over others or at once", joints[follower].name);
+    settled.into_iter().map(|lead| lead.unwrap_or(Lead::Nothing)).collect()
+}
+
+/// Where the way from a follower to its leader goes on.
+enum Next {
+    Leader(usize),
+    /// Nowhere: the joint moves by itself.
+    Drive,
+    /// Nowhere.
+    End(Lead),
+}
+
+fn next(joint: &AssemblyJoint, by_name: &BTreeMap<&str, usize>, found: &mut Findings) -> Next {
+    if joint.kind.is_none() {
+        return Next::End(Lead::Fixed(0.0));
+    }
+    let Some(mimic) = &joint.mimic else { return Next::Drive };
+    if let Some(&leader) = by_name.get(&*mimic.leader) {
+        return Next::Leader(leader);
+    }
+    let message = format!("joint '{}' follows '{}', which is no joint", joint.name, mimic.leader);
+    let help = match found.meant(&mimic.leader, by_name.keys().copied()) {
+        Some(close) => format!("did you mean '{close}'?"),
+        None => "name a joint of this vehicle".into(),
+    };
+    found.error(&mimic.at, message, "no such joint", &help);
+    Next::End(Lead::Nothing)
+}
+
+/// Told once of each ring, and not of what follows a joint of it.
+fn tell_of_ring(joint: &AssemblyJoint, found: &mut Findings) {
+    let mimic_at = joint.mimic.as_ref().map_or(0..0, |mimic| mimic.at.clone());
+    let message = format!("joint '{}' follows itself, over others or at once", joint.name);
     found.error(&mimic_at, message, "a ring", "one joint of the ring must have its own drive");
-    None
+}
+
+/// What a follower follows, from what its leader follows: q = m (ratio × q' + offset) + o.
+fn followed(follower: &AssemblyJoint, lead: Lead) -> Lead {
+    let Some(mimic) = &follower.mimic else { return lead };
+    let moved = |offset: f64| mimic.ratio * offset + mimic.offset;
+    match lead {
+        Lead::Joint { leader, ratio, offset } if mimic.ratio * ratio != 0.0 => {
+            Lead::Joint { leader, ratio: mimic.ratio * ratio, offset: moved(offset) }
+        }
+        // What is turned by nothing stands still.
+        Lead::Joint { offset, .. } => Lead::Fixed(moved(offset)),
+        Lead::Fixed(q) => Lead::Fixed(moved(q)),
+        Lead::Nothing => Lead::Nothing,
+    }
 }
 
 /// Warns of a follower that its leader takes beyond its travel.

@@ -8,6 +8,7 @@ use crate::equipment::Equipment;
 use crate::findings::Findings;
 use crate::toml::posture_of;
 use crate::vehicle::{Shape, Vehicle};
+use std::collections::BTreeMap;
 use wrasse_document::{Complaint, Document, Severity, at};
 use wrasse_dynamics::Frame;
 use wrasse_hardware::{AttitudeActuator, Sensors};
@@ -145,8 +146,10 @@ impl Model {
 }
 
 fn shapes(assembly: &Assembly, assembled: &AssembledRobot) -> Vec<Shape> {
+    let frames: BTreeMap<&str, Frame<f64>> =
+        assembled.frames.iter().map(|named| (&*named.name, named.frame)).collect();
     let placed = assembly.outlines.iter().filter_map(|outline| {
-        let on = assembled.frames.iter().find(|named| named.name == outline.link)?.frame;
+        let on = *frames.get(&*outline.link)?;
         let frame = Frame { body: on.body, X_BF: on.X_BF * outline.X_LF };
         Some(Shape { link: outline.link.clone(), frame, kind: outline.kind })
     });

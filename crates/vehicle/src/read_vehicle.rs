@@ -3,8 +3,9 @@
 use crate::mjcf::{is_mjcf, read_mjcf};
 use crate::model::Model;
 use crate::toml::read_toml;
-use crate::urdf::read_urdf;
+use crate::urdf::{EXPAND_XACRO, read_urdf};
 use crate::vehicle::Vehicle;
+use crate::xml::check_attributes;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use wrasse_document::{Complaint, Source};
@@ -34,6 +35,9 @@ pub(crate) fn read_model(
     nesting: &mut Nesting,
 ) -> Result<Model, Vec<Complaint>> {
     let ending = source.path.extension().and_then(|e| e.to_str()).map(str::to_lowercase);
+    if matches!(ending.as_deref(), Some("mjcf" | "xml" | "urdf")) {
+        check_attributes(source)?;
+    }
     nesting.open.push(source.path.clone());
     let read = match ending.as_deref() {
         Some("toml") => read_toml(source, nesting),
@@ -45,9 +49,11 @@ pub(crate) fn read_model(
                 other.map_or("no ending".into(), |ending| format!("the ending '.{ending}'"));
             let message = format!("the ending of a vehicle file says its format, found {found}");
             let complaint = Complaint::error(source, message);
-            Err(vec![complaint.with_help(
-                "vehicle files end in .toml, .urdf, .mjcf or .xml; convert SDF to URDF",
-            )])
+            Err(vec![complaint.with_help(match ending.as_deref() {
+                Some("xacro") => EXPAND_XACRO,
+                Some("sdf" | "world") => "convert SDF to URDF",
+                _ => "vehicle files end in .toml, .urdf, .mjcf or .xml",
+            })])
         }
     };
     nesting.open.pop();

@@ -107,7 +107,7 @@ fn each_unknown_word_is_told_at_its_place_with_what_was_meant() {
         Mistake(r#"angle="radian""#, r#"angle="radian" eulerseq="xyw""#, 2, "xyw", "three of x, y, z"),
         Mistake(r#"angle="radian""#, r#"angle="radian" coordinate="global""#, 2, "global", "not supported"),
         Mistake(r#"childclass="arm""#, r#"childclass="amr""#, 12, "amr", "did you mean 'arm'?"),
-        Mistake(r#"<joint name="elbow""#, r#"<joint class="wrist" name="elbow""#, 16, "wrist", "classes are main, arm"),
+        Mistake(r#"<joint name="elbow""#, r#"<joint class="wrist" name="elbow""#, 16, "wrist", "classes are arm, main"),
         Mistake(r#"type="capsule""#, r#"type="capsul""#, 17, "capsul", "did you mean \"capsule\"?"),
         Mistake("<inertial pos", "<inertial pso", 14, "pso", "did you mean `pos`?"),
         Mistake("<site name", "<sitee name", 18, "sitee", "did you mean <site>?"),

@@ -6,7 +6,7 @@ use crate::findings::Findings;
 use nalgebra::{Matrix3, SymmetricEigen};
 use std::collections::BTreeSet;
 use std::ops::Range;
-use wrasse_spatial::{SpatialInertia, Sym3, Vec3};
+use wrasse_spatial::{SpatialInertia, Sym3};
 
 /// What can be said of the mass properties of one link, before it is known what it is fixed to:
 /// complains of numbers that are not finite, and of a mass below zero. Whether they can be taken.
@@ -30,25 +30,40 @@ pub(crate) fn check_single_links(links: &[Link], joints: &[AssemblyJoint], found
     let touched: BTreeSet<&str> = fixed.flat_map(|j| [&*j.parent, &*j.child]).collect();
     for link in links.iter().filter(|link| !touched.contains(&*link.name)) {
         let Some(matter) = &link.matter else { continue };
-        if matter.mass.is_finite() && is_finite(matter.p_cm) && is_finite_tensor(matter.inertia) {
+        let numbers = [&[matter.mass][..], &matter.p_cm.to_array(), &elements(matter.inertia)];
+        if numbers.into_iter().all(|numbers| wrong_size(numbers).is_none()) {
             let M = SpatialInertia::from_central(matter.mass, matter.p_cm, matter.inertia);
             check_body(&[(link, matter)], &M, found);
         }
     }
 }
 
-/// Complains of numbers that are not finite.
-fn check_finite(link: &Link, matter: &Matter, found: &mut Findings) -> bool {
-    let help = "write a finite number";
-    let checks = [
-        ("mass", &matter.mass_at, matter.mass.is_finite()),
-        ("centre of mass", &link.at, is_finite(matter.p_cm)),
-        ("inertia", &matter.inertia_at, is_finite_tensor(matter.inertia)),
-    ];
-    for (what, at, _) in checks.iter().filter(|(_, _, finite)| !finite) {
-        found.error(at, format!("{what} of '{}' is not finite", link.name), "not finite", help);
+/// The largest number of a model, in SI: products of six such numbers stay finite. The Sun has 2e30 kg.
+const LARGEST: f64 = 1e40;
+
+/// What is wrong with the size of numbers, and how to mend it.
+fn wrong_size(numbers: &[f64]) -> Option<(&'static str, &'static str)> {
+    if !numbers.iter().all(|x| x.is_finite()) {
+        return Some(("not finite", "write a finite number"));
     }
-    checks.iter().all(|&(_, _, finite)| finite)
+    let is_large = numbers.iter().any(|x| x.abs() > LARGEST);
+    is_large.then_some(("beyond 1e40", "no vehicle is so large: SI units are meant"))
+}
+
+/// Complains of numbers that are not finite, or so large that what is computed of them is not.
+fn check_finite(link: &Link, matter: &Matter, found: &mut Findings) -> bool {
+    let checks: [(&str, &Range<usize>, &[f64]); 3] = [
+        ("mass", &matter.mass_at, &[matter.mass]),
+        ("centre of mass", &link.at, &matter.p_cm.to_array()),
+        ("inertia", &matter.inertia_at, &elements(matter.inertia)),
+    ];
+    let mut fine = true;
+    for (what, at, numbers) in checks {
+        let Some((wrong, help)) = wrong_size(numbers) else { continue };
+        found.error(at, format!("{what} of '{}' is {wrong}", link.name), wrong, help);
+        fine = false;
+    }
+    fine
 }
 
 /// Complains of a body that no matter makes: links that are fixed to each other, and their inertia
@@ -276,16 +291,22 @@ fn eigenvalues(I: Sym3<f64>) -> Option<[f64; 3]> {
 pub(crate) fn check_joint(joint: &AssemblyJoint, found: &mut Findings) {
     let name = &joint.name;
     let X = &joint.X_PC;
-    if !X.rotation.rows.iter().chain([&X.translation]).all(|&row| is_finite(row)) {
-        let message = format!("the pose of joint '{name}' on its parent is not finite");
-        found.error(&joint.at, message, "not finite", "write finite numbers");
+    let mut rows = X.rotation.rows.iter().chain([&X.translation]);
+    if let Some((wrong, help)) = rows.find_map(|row| wrong_size(&row.to_array())) {
+        let message = format!("the pose of joint '{name}' on its parent is {wrong}");
+        found.error(&joint.at, message, wrong, help);
+    }
+    let followed = joint.mimic.as_ref().map_or([0.0; 2], |mimic| [mimic.ratio, mimic.offset]);
+    if let Some((wrong, help)) = wrong_size(&followed) {
+        let message = format!("what joint '{name}' does as it follows is {wrong}");
+        found.error(&joint.at, message, wrong, help);
     }
     if joint.kind.is_none() {
         return;
     }
-    if !is_finite(joint.axis) {
-        let message = format!("the axis of joint '{name}' is not finite");
-        found.error(&joint.axis_at, message, "not finite", "write finite numbers");
+    if let Some((wrong, help)) = wrong_size(&joint.axis.to_array()) {
+        let message = format!("the axis of joint '{name}' is {wrong}");
+        found.error(&joint.axis_at, message, wrong, help);
     } else if joint.axis.norm() < f64::MIN_POSITIVE {
         let message = format!("the axis of joint '{name}' is zero: it has no direction");
         found.error(&joint.axis_at, message, "this axis", "write a direction, such as 0 0 1");
@@ -297,10 +318,10 @@ fn check_limits(joint: &AssemblyJoint, found: &mut Findings) {
     let (name, at, limits) = (&joint.name, &joint.limits_at, &joint.limits);
     let travel = limits.travel.map_or([0.0; 2], |(lower, upper)| [lower, upper]);
     let capacity = [limits.rate, limits.effort].map(Option::unwrap_or_default);
+    // Some files say 1.8e308 of what is not limited.
     if !travel.iter().chain(&capacity).all(|x| x.is_finite()) {
         let message = format!("a limit of joint '{name}' is not finite");
-        let help = "leave out what is not limited";
-        found.error(at, message, "not finite", help);
+        found.error(at, message, "not finite", "leave out what is not limited");
         return;
     }
     let [lower, upper] = travel;
@@ -317,10 +338,6 @@ fn check_limits(joint: &AssemblyJoint, found: &mut Findings) {
     }
 }
 
-fn is_finite_tensor(I: Sym3<f64>) -> bool {
-    [I.xx, I.xy, I.xz, I.yy, I.yz, I.zz].iter().all(|x| x.is_finite())
-}
-
-fn is_finite(a: Vec3<f64>) -> bool {
-    a.to_array().iter().all(|x| x.is_finite())
+fn elements(I: Sym3<f64>) -> [f64; 6] {
+    [I.xx, I.xy, I.xz, I.yy, I.yz, I.zz]
 }

@@ -15,7 +15,7 @@
 
 use crate::vehicle::VehicleRobot;
 use core::f64::consts::{FRAC_PI_2, PI};
-use nalgebra::{DMatrix, Matrix6, SymmetricEigen, Vector6};
+use nalgebra::{Matrix6, SymmetricEigen, Vector6};
 use wrasse_dynamics::{BodyId, Joint, JointKind, State, kinematics, mass_matrix};
 use wrasse_spatial::{SpatialInertia, Vec3};
 
@@ -36,8 +36,12 @@ pub(crate) enum Regularity {
 const REGULAR: f64 = 1e-13;
 /// Postures that are looked at besides those with one joint at a quarter turn.
 const POSTURES: usize = 400;
+/// A travel that is as good as none (rad or m).
+const ENDLESS: f64 = 1e3;
 /// Worst postures from which a worse one is looked for.
 const DESCENTS: usize = 3;
+/// Postures that are looked at on the way down from each: enough for twenty joints to come to rest.
+const STEPS: usize = 1500;
 
 /// What is known of the mass matrix of a robot with these travels (rad or m; `None`: a whole turn, or a
 /// metre either way).
@@ -82,7 +86,8 @@ pub(crate) fn travel_or_usual(
 ) -> Vec<(f64, f64)> {
     let ends = |j: usize| {
         let given = travels.get(j).copied().flatten();
-        given.filter(|(a, b)| a <= b).unwrap_or(usual_travel(robot.joint(j).kind))
+        let within = |(a, b): &(f64, f64)| a <= b && a.abs().max(b.abs()) < ENDLESS;
+        given.filter(within).unwrap_or(usual_travel(robot.joint(j).kind))
     };
     robot.joints().map(ends).collect()
 }
@@ -196,31 +201,44 @@ fn pivots(robot: &VehicleRobot, q: &[f64]) -> Vec<f64> {
     let k = kinematics(robot, &state);
     let M = mass_matrix(&k);
     let rows = robot.joint_count() + 6;
-    let mut M = DMatrix::from_fn(rows, rows, |i, k| M.element(i, k));
-    let diagonal: Vec<f64> = (0..rows).map(|p| M[(p, p)]).collect();
+    let mut lower: Vec<f64> =
+        (0..rows * rows).map(|place| M.element(place / rows, place % rows)).collect();
+    let diagonal: Vec<f64> = (0..rows).map(|p| lower[p * rows + p]).collect();
     let mut parts = vec![];
     for p in 0..rows {
-        let pivot = M[(p, p)];
+        let pivot = lower[p * rows + p];
         let part = if diagonal[p] > 0.0 { pivot / diagonal[p] } else { 0.0 };
         parts.push(part);
         if part < REGULAR {
             continue;
         }
-        for i in p + 1..rows {
-            let factor = M[(i, p)] / pivot;
-            for k in p + 1..=i {
-                M[(i, k)] -= factor * M[(k, p)];
-            }
-        }
+        eliminate(&mut lower, rows, p);
     }
     parts
+}
+
+/// Takes the row and column of a pivot out of those behind it. By plain indices: some thousand matrices of
+/// sixty rows are looked at, in a crate that is built without optimisation.
+fn eliminate(lower: &mut [f64], rows: usize, p: usize) {
+    let pivot = lower[p * rows + p];
+    let mut i = p + 1;
+    while i < rows {
+        let factor = lower[i * rows + p] / pivot;
+        let mut k = p + 1;
+        while factor != 0.0 && k <= i {
+            lower[i * rows + k] -= factor * lower[k * rows + p];
+            k += 1;
+        }
+        i += 1;
+    }
 }
 
 /// From a posture to a worse one: one joint after the other is moved by less and less, within its travel.
 fn downhill(robot: &VehicleRobot, ends: &[(f64, f64)], mut q: Vec<f64>) -> (f64, Vec<f64>) {
     let mut worst = least_pivot(robot, &q);
-    let mut step = 0.25;
-    while step > 1e-9 && worst >= REGULAR {
+    let (mut step, mut looked) = (0.25, 0);
+    while step > 1e-9 && worst >= REGULAR && looked < STEPS {
+        looked += 2 * ends.len();
         let before = worst;
         for (j, &(lower, upper)) in ends.iter().enumerate() {
             for side in [-1.0, 1.0] {

@@ -2,9 +2,8 @@
 
 use crate::assembly::{AssemblyJoint, Link};
 use crate::findings::Findings;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
-use wrasse_document::closest;
 
 /// A tree over the links and joints of a file, by their places in its lists.
 #[derive(Debug)]
@@ -35,8 +34,10 @@ pub(crate) fn tree(links: &[Link], joints: &[AssemblyJoint], found: &mut Finding
     let all_named = links.iter().all(|link| !link.name.is_empty());
     let edges: Vec<_> = joints.iter().map(|j| ends(j, &names, all_named, found)).collect();
     let carriers = carriers(links, joints, &edges, found);
-    let looped = complain_of_loops(links, joints, &edges, &carriers, found);
-    let roots = roots(joints, &names, &edges, &carriers, found.are_many());
+    // Two links of one name may look like a loop, and have had their complaint.
+    let looped =
+        names.len() == links.len() && complain_of_loops(links, joints, &edges, &carriers, found);
+    let roots = roots(joints, &names, &edges, &carriers, found);
     if roots.len() > 1 {
         complain_of_roots(links, &roots, found);
     }
@@ -48,7 +49,8 @@ pub(crate) fn tree(links: &[Link], joints: &[AssemblyJoint], found: &mut Finding
         .iter()
         .enumerate()
         .map(|(joint, &(parent, child))| Some(Edge { joint, parent: parent?, child: child? }));
-    Some(Tree { root, order: parents_first(links.len(), root, edges.collect::<Option<_>>()?) })
+    let edges: Vec<_> = edges.collect::<Option<_>>()?;
+    Some(Tree { root, order: parents_first(links.len(), root, &edges) })
 }
 
 /// Places by name; complains of names that are there twice.
@@ -63,7 +65,12 @@ fn first_of_each_name<'a>(
         if let Some((_, first_at)) = first.get(name) {
             let line = found.line(first_at.start, at);
             let message = format!("two {kind}s are called '{name}'; the other is on {line}");
-            found.error(at, message, "the second", "give one of them another name");
+            let help = if line.contains(" of ") {
+                "give one of them another name, or the [[include]] of its file a `prefix`"
+            } else {
+                "give one of them another name"
+            };
+            found.error(at, message, "the second", help);
         } else {
             first.insert(name, (place, at));
         }
@@ -85,8 +92,7 @@ fn ends(
                 "joint '{}' has the {role} '{name}', but no link has that name",
                 joint.name
             );
-            let close = if found.are_many() { None } else { closest(name, names.keys().copied()) };
-            let help = match close {
+            let help = match found.meant(name, names.keys().copied()) {
                 Some(close) => format!("did you mean '{close}'?"),
                 None => format!("links are {}", listed(names.keys())),
             };
@@ -168,7 +174,10 @@ fn complain_of_loops(
     looped
 }
 
-/// The names along a ring, base to tip, first and last the same.
+/// Names of a ring that are told.
+const TOLD: usize = 12;
+
+/// The names along a ring, base to tip, first and last the same; of a long one those at its ends.
 fn ring_through(
     start: usize,
     above: impl Fn(usize) -> Option<(usize, usize)>,
@@ -183,8 +192,16 @@ fn ring_through(
             break;
         }
     }
-    names.reverse();
-    names.join(" → ")
+    if names.len() <= TOLD {
+        return joined(&names);
+    }
+    let (tip, base) = (&names[..TOLD / 2], &names[names.len() - TOLD / 2..]);
+    format!("{} → … {} more … → {}", joined(base), names.len() - TOLD, joined(tip))
+}
+
+/// Names from tip to base, the base first.
+fn joined(names: &[&str]) -> String {
+    names.iter().rev().copied().collect::<Vec<_>>().join(" → ")
 }
 
 /// Links that no joint carries. A child that is not known, or known twice, leaves another link
@@ -194,26 +211,20 @@ fn roots(
     names: &BTreeMap<&str, usize>,
     edges: &[(Option<usize>, Option<usize>)],
     carriers: &[Vec<usize>],
-    are_many: bool,
+    found: &mut Findings,
 ) -> Vec<usize> {
-    let mut roots: Vec<_> = names.values().copied().filter(|&l| carriers[l].is_empty()).collect();
-    roots.sort_unstable();
+    let mut roots: BTreeSet<_> =
+        names.values().copied().filter(|&link| carriers[link].is_empty()).collect();
     let mut explained: usize = carriers.iter().map(|c| c.len().saturating_sub(1)).sum();
     let unknown = joints.iter().zip(edges).filter(|(_, (_, child))| child.is_none());
     for (joint, _) in unknown {
-        let guess = || closest(&joint.child, names.keys().copied());
-        let meant = if are_many { None } else { guess().and_then(|name| names.get(name)) };
-        match roots.iter().position(|root| Some(root) == meant) {
-            Some(place) => {
-                roots.remove(place);
-            }
-            None => explained += 1,
+        let meant = found.meant(&joint.child, names.keys().copied());
+        if !meant.and_then(|name| names.get(name)).is_some_and(|root| roots.remove(root)) {
+            explained += 1;
         }
     }
-    if roots.len() <= 1 + explained {
-        roots.truncate(1);
-    }
-    roots
+    let shown = if roots.len() <= 1 + explained { 1 } else { roots.len() };
+    roots.into_iter().take(shown).collect()
 }
 
 /// One complaint for each root after the first.
@@ -232,14 +243,17 @@ fn complain_of_roots(links: &[Link], roots: &[usize], found: &mut Findings) {
 }
 
 /// Keeps the order of the file, but no joint comes before the one that carries its parent.
-fn parents_first(links: usize, root: usize, mut waiting: Vec<Edge>) -> Vec<Edge> {
-    let mut order: Vec<Edge> = Vec::with_capacity(waiting.len());
-    let mut placed = vec![false; links];
-    placed[root] = true;
-    while let Some(next) = waiting.iter().position(|e| placed[e.parent]) {
-        let edge = waiting.remove(next);
-        placed[edge.child] = true;
-        order.push(edge);
+fn parents_first(links: usize, root: usize, edges: &[Edge]) -> Vec<Edge> {
+    let mut on: Vec<Vec<usize>> = vec![vec![]; links];
+    for (place, edge) in edges.iter().enumerate() {
+        on[edge.parent].push(place);
+    }
+    let mut order: Vec<Edge> = Vec::with_capacity(edges.len());
+    // Joints whose parent is placed: the first of the file is next.
+    let mut ready: BTreeSet<usize> = on[root].iter().copied().collect();
+    while let Some(next) = ready.pop_first() {
+        ready.extend(&on[edges[next].child]);
+        order.push(edges[next]);
     }
     order
 }

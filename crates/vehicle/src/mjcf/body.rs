@@ -37,6 +37,8 @@ pub(super) struct Bodies<'c, 'd, 't, 'r> {
     /// Joints with a rotor's inertia, and where the first says so.
     /// Positions at which joints are where the file puts them, where they are not zero (rad or m).
     pub(super) references: BTreeMap<String, f64>,
+    /// Where the names of bodies stand.
+    names: BTreeMap<String, Range<usize>>,
     sites: Vec<(Link, AssemblyJoint)>,
     /// Bodies and joints so far, as MuJoCo numbers them; body 0 is the world.
     bodies: usize,
@@ -64,6 +66,7 @@ impl<'c, 'd, 't, 'r> Bodies<'c, 'd, 't, 'r> {
             is_free: false,
             stands: false,
             references: BTreeMap::new(),
+            names: BTreeMap::new(),
             sites: Vec::new(),
             bodies: 0,
             joint_count: 0,
@@ -123,14 +126,15 @@ impl<'c, 'd, 't, 'r> Bodies<'c, 'd, 't, 'r> {
     fn name(&mut self, element: &Element<'_, '_>) -> (String, Range<usize>) {
         let numbered = format!("body{}", self.bodies);
         let Some(written) = element.name() else { return (numbered, element.at.clone()) };
-        if let Some(other) = self.links.iter().find(|link| link.name == written.text) {
-            let line = self.reading.found.line(other.at.start, &written.at);
+        if let Some(other) = self.names.get(written.text) {
+            let line = self.reading.found.line(other.start, &written.at);
             let message =
                 format!("two bodies are called '{}'; the other is on {line}", written.text);
             let help = "give one of them another name";
             self.reading.found.error(&written.at, message, "the second", help);
             return (numbered, written.at.clone());
         }
+        self.names.insert(written.text.to_owned(), written.at.clone());
         (written.text.to_owned(), written.at.clone())
     }
 

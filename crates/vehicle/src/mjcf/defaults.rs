@@ -2,7 +2,7 @@
 
 use crate::xml::{Element, Kind, Reading, Text};
 use roxmltree::Node;
-use wrasse_document::closest;
+use std::collections::BTreeMap;
 
 const DEFAULT: Kind = Kind {
     tag: "default",
@@ -32,7 +32,6 @@ const DEFAULT: Kind = Kind {
 /// A class, and what it says of the elements that wrasse reads.
 #[derive(Debug)]
 struct Class<'d, 't> {
-    name: &'d str,
     /// Place of the class that it is made from; the first has none.
     parent: Option<usize>,
     elements: Vec<Element<'d, 't>>,
@@ -40,7 +39,11 @@ struct Class<'d, 't> {
 
 /// All classes of a file, the one that holds for all first.
 #[derive(Debug)]
-pub(super) struct Classes<'d, 't>(Vec<Class<'d, 't>>);
+pub(super) struct Classes<'d, 't> {
+    all: Vec<Class<'d, 't>>,
+    /// Place of the first class of each name.
+    places: BTreeMap<&'d str, usize>,
+}
 
 /// An element, and what its class says where it is silent, the nearest first.
 #[derive(Debug)]
@@ -83,7 +86,8 @@ impl<'d, 't> Classes<'d, 't> {
         kinds: &[&Kind],
         reading: &mut Reading<'_>,
     ) -> Self {
-        let mut classes = Self(vec![Class { name: "main", parent: None, elements: Vec::new() }]);
+        let main = Class { parent: None, elements: Vec::new() };
+        let mut classes = Self { all: vec![main], places: BTreeMap::new() };
         // Sections at the top all speak of the class that holds for all.
         let mut waiting: Vec<_> = sections.map(|node| (node, None)).collect();
         waiting.reverse();
@@ -93,12 +97,15 @@ impl<'d, 't> Classes<'d, 't> {
             for kind in kinds {
                 let of_kind = element.children(kind.tag);
                 let opened: Vec<_> = of_kind.map(|node| reading.open(node, kind)).collect();
-                classes.0[place].elements.extend(opened);
+                classes.all[place].elements.extend(opened);
             }
             let mut nested: Vec<_> =
                 element.children("default").map(|node| (node, Some(place))).collect();
             nested.reverse();
             waiting.extend(nested);
+        }
+        if !classes.places.values().any(|place| *place == 0) {
+            classes.places.entry("main").or_insert(0);
         }
         classes
     }
@@ -112,26 +119,28 @@ impl<'d, 't> Classes<'d, 't> {
     ) -> usize {
         if parent.is_none() {
             if let Some(named) = element.attribute("class") {
-                self.0[0].name = named.text;
+                self.places.retain(|_, place| *place != 0);
+                self.places.insert(named.text, 0);
             }
             return 0;
         }
         let Some(named) = element.required("class", reading) else { return 0 };
-        if self.0.iter().any(|class| class.name == named.text) {
+        let place = self.all.len();
+        if *self.places.entry(named.text).or_insert(place) != place {
             let message = format!("two default classes are called '{}'", named.text);
             reading.found.error(&named.at, message, "the second", "give one of them another name");
         }
-        self.0.push(Class { name: named.text, parent, elements: Vec::new() });
-        self.0.len() - 1
+        self.all.push(Class { parent, elements: Vec::new() });
+        place
     }
 
     /// The class of this name; nothing after a complaint.
     pub(super) fn find(&self, named: &Text<'_>, reading: &mut Reading<'_>) -> Option<usize> {
-        let place = self.0.iter().position(|class| class.name == named.text);
+        let place = self.places.get(named.text).copied();
         if place.is_none() {
             let message = format!("there is no default class '{}'", named.text);
-            let names = || self.0.iter().map(|class| class.name);
-            let help = match closest(named.text, names()) {
+            let names = || self.places.keys().copied();
+            let help = match reading.found.meant(named.text, names()) {
                 Some(meant) => format!("did you mean '{meant}'?"),
                 None => format!("classes are {}", names().take(10).collect::<Vec<_>>().join(", ")),
             };
@@ -142,15 +151,15 @@ impl<'d, 't> Classes<'d, 't> {
 
     /// Whether a class switches its equality constraints on: MuJoCo does, unless told.
     pub(super) fn activity(&self, class: Option<&str>) -> bool {
-        let place = class.and_then(|name| self.0.iter().position(|class| class.name == name));
+        let place = class.and_then(|name| self.places.get(name).copied());
         let said = self.chain("equality", place).find_map(|element| element.attribute("active"));
         said.is_none_or(|text| text.text.trim() != "false")
     }
 
     /// What a class says of elements of a name, the nearest first.
     fn chain(&self, tag: &str, class: Option<usize>) -> impl Iterator<Item = &Element<'d, 't>> {
-        let first = self.0.get(class.unwrap_or(0));
-        let up = |class: &&Class<'d, 't>| class.parent.and_then(|place| self.0.get(place));
+        let first = self.all.get(class.unwrap_or(0));
+        let up = |class: &&Class<'d, 't>| class.parent.and_then(|place| self.all.get(place));
         // What is said later holds.
         let all = std::iter::successors(first, up).flat_map(|class| class.elements.iter().rev());
         all.filter(move |element| element.tag == tag)

@@ -96,19 +96,21 @@ pub(super) fn follow(
     reading: &mut Reading<'_>,
 ) {
     let reference = |name: &str| references.get(name).copied().unwrap_or(0.0);
+    let mut by_name: BTreeMap<String, &mut AssemblyJoint> =
+        joints.iter_mut().rev().map(|joint| (joint.name.clone(), joint)).collect();
     for coupling in couplings {
         let offset = reference(&coupling.follower) + coupling.offset
             - coupling.ratio * reference(&coupling.leader);
-        let Some(joint) = joints.iter_mut().find(|joint| joint.name == coupling.follower) else {
+        if let Some(joint) = by_name.get_mut(&coupling.follower) {
+            joint.mimic = Some(Mimic {
+                leader: coupling.leader.clone(),
+                at: coupling.leader_at.clone(),
+                ratio: coupling.ratio,
+                offset,
+            });
+        } else {
             let message = format!("no joint is called '{}'", coupling.follower);
             reading.found.error(&coupling.at, message, "no such joint", "");
-            continue;
-        };
-        joint.mimic = Some(Mimic {
-            leader: coupling.leader.clone(),
-            at: coupling.leader_at.clone(),
-            ratio: coupling.ratio,
-            offset,
-        });
+        }
     }
 }

@@ -2,7 +2,7 @@
 //! elements, and the way back from a place in it to a place in the file where it stands.
 
 use crate::findings::{Findings, SourceFiles};
-use crate::xml::{not_xml, tag_at};
+use crate::xml::{check_attributes, not_xml, tag_at};
 use roxmltree::{Document, Node};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -105,7 +105,9 @@ impl Splicing {
         match read_text(&path, room) {
             Ok(text) => {
                 self.seen.push(path.clone());
-                Ok(Source::new(path, text))
+                let source = Source::new(path, text);
+                check_attributes(&source)?;
+                Ok(source)
             }
             Err(why) => {
                 let message = format!("cannot read the included '{}': {why}", path.display());

@@ -8,7 +8,7 @@ use crate::table::{OrientationFile, ProvenanceFile, Reading, under};
 use crate::urdf::NO_PROVENANCE;
 use schemars::JsonSchema;
 use serde::Deserialize;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use wildmatch::WildMatch;
 use wrasse_document::Step;
@@ -176,23 +176,53 @@ fn fix(
 
 /// Fixes the joints that are meant by the patterns. The patterns that mean no joint that moves.
 pub(crate) fn fix_joints(patterns: &[String], joints: &mut [AssemblyJoint]) -> Vec<String> {
-    let moving: Vec<bool> = joints.iter().map(|joint| joint.kind.is_some()).collect();
     let mut unmet = vec![];
+    let mut meant = vec![false; joints.len()];
     for pattern in patterns {
-        let meant = WildMatch::new(pattern);
+        let matching = WildMatch::new(pattern);
         let mut met = false;
-        for (joint, moves) in joints.iter_mut().zip(&moving) {
-            if *moves && meant.matches(&joint.name) {
-                met = true;
-                let nearest = joint.limits.nearest_to_zero();
-                joint.fixed_at(joint.mimic.as_ref().map_or(nearest, |mimic| mimic.offset));
-            }
+        for (joint, is_meant) in joints.iter().zip(&mut meant) {
+            let matches = joint.kind.is_some() && matching.matches(&joint.name);
+            *is_meant |= matches;
+            met |= matches;
         }
         if !met {
             unmet.push(pattern.clone());
         }
     }
+    fix_those(joints, &meant);
     unmet
+}
+
+/// Fixes the joints that are meant, leaders before those that follow them: what follows a joint that is
+/// fixed away from zero is further on by that.
+fn fix_those(joints: &mut [AssemblyJoint], meant: &[bool]) {
+    let by_name: BTreeMap<String, usize> =
+        joints.iter().enumerate().rev().map(|(k, joint)| (joint.name.clone(), k)).collect();
+    let leader = |joint: &AssemblyJoint| by_name.get(&joint.mimic.as_ref()?.leader).copied();
+    let mut following: Vec<Vec<usize>> = vec![vec![]; joints.len()];
+    let mut ready = vec![];
+    for (k, joint) in joints.iter().enumerate() {
+        match leader(joint) {
+            Some(leader) if leader != k => {
+                following[leader].push(k);
+                // A leader that is fixed too comes first.
+                ready.extend((meant[k] && !meant[leader]).then_some(k));
+            }
+            _ => ready.extend(meant[k].then_some(k)),
+        }
+    }
+    while let Some(k) = ready.pop() {
+        let nearest = joints[k].limits.nearest_to_zero();
+        let q = joints[k].mimic.as_ref().map_or(nearest, |mimic| mimic.offset);
+        joints[k].fixed_at(q);
+        for &follower in &following[k] {
+            if let Some(mimic) = &mut joints[follower].mimic {
+                mimic.offset += mimic.ratio * q;
+            }
+            ready.extend(meant[follower].then_some(follower));
+        }
+    }
 }
 
 /// The complaint about a pattern that means no joint, and which joints there are.

@@ -5,4 +5,4 @@ mod link;
 mod numbers;
 mod robot;
 
-pub(crate) use robot::{NO_PROVENANCE, read_urdf};
+pub(crate) use robot::{EXPAND_XACRO, NO_PROVENANCE, read_urdf};

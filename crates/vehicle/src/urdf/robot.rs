@@ -37,7 +37,7 @@ const ROBOT: Kind = Kind {
 };
 
 /// What to do with a xacro file.
-const EXPAND_XACRO: &str = "expand it first: `xacro FILE.xacro > vehicle.urdf`";
+pub(crate) const EXPAND_XACRO: &str = "expand it first: `xacro FILE.xacro > vehicle.urdf`";
 
 /// The source of all numbers of a URDF, which has no place for one.
 pub(crate) const NO_PROVENANCE: &str = "URDF without provenance";

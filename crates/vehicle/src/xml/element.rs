@@ -3,6 +3,7 @@
 
 use crate::findings::Findings;
 use roxmltree::{Attribute, Node};
+use std::collections::BTreeMap;
 use std::ops::Range;
 use wrasse_document::closest;
 
@@ -47,13 +48,13 @@ pub(crate) struct Reading<'t> {
     pub(crate) text: &'t str,
     pub(crate) found: Findings,
     format: &'static Format,
-    unused: Vec<Unused>,
+    /// What is not used, by its name.
+    unused: BTreeMap<String, Unused>,
 }
 
 /// Things of one name that are not used.
 #[derive(Debug)]
 struct Unused {
-    name: String,
     count: usize,
     first: Range<usize>,
 }
@@ -69,7 +70,7 @@ pub(crate) fn tag_at(node: Node<'_, '_>, text: &str) -> Range<usize> {
 impl<'t> Reading<'t> {
     /// Of a file's text, with nothing found yet.
     pub(crate) fn new(text: &'t str, found: Findings, format: &'static Format) -> Self {
-        Self { text, found, format, unused: Vec::new() }
+        Self { text, found, format, unused: BTreeMap::new() }
     }
 
     /// An element with all that it holds; complains of what it should not hold.
@@ -119,9 +120,11 @@ impl<'t> Reading<'t> {
             return Some(name);
         }
         // What is missing is more likely to be meant than what is already there.
-        let missing = kind.attributes.iter().copied().filter(|n| node.attribute(*n).is_none());
-        let meant =
-            closest(name, missing).or_else(|| closest(name, kind.attributes.iter().copied()));
+        let all = || kind.attributes.iter().copied();
+        let meant = self.found.meant(name, all()).map(|any| {
+            let missing = all().filter(|n| node.attribute(*n).is_none());
+            closest(name, missing).unwrap_or(any)
+        });
         let message = format!("<{}> has no attribute `{name}`", kind.tag);
         if let Some(meant) = meant {
             let help = format!("did you mean `{meant}`?");
@@ -145,8 +148,8 @@ impl<'t> Reading<'t> {
             return Some(known);
         }
         let message = format!("<{}> holds no <{name}>", kind.tag);
-        let all = || kind.children.iter().chain(kind.unused).copied();
-        if let Some(meant) = closest(name, all()) {
+        let all: Vec<_> = kind.children.iter().chain(kind.unused).copied().collect();
+        if let Some(meant) = self.found.meant(name, all.into_iter()) {
             let help = format!("did you mean <{meant}>?");
             self.found.error(&at, message, "unknown tag", &help);
             return kind.children.iter().copied().find(|n| *n == meant);
@@ -157,15 +160,12 @@ impl<'t> Reading<'t> {
 
     /// Counts a thing that is known and not used.
     pub(crate) fn not_used(&mut self, name: String, at: Range<usize>) {
-        match self.unused.iter_mut().find(|u| u.name == name) {
-            Some(unused) => unused.count += 1,
-            None => self.unused.push(Unused { name, count: 1, first: at }),
-        }
+        self.unused.entry(name).or_insert(Unused { count: 0, first: at }).count += 1;
     }
 
     /// All that was found, with one note for each name that was not used.
     pub(crate) fn into_findings(mut self) -> Findings {
-        for Unused { name, count, first } in self.unused {
+        for (name, Unused { count, first }) in self.unused {
             let times = if count == 1 { String::new() } else { format!(" ({count} times)") };
             let why = self.format.why_unused.iter().find(|(of, _)| *of == name);
             let help = why.map_or("", |(_, why)| why);

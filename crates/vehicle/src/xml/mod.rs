@@ -5,4 +5,4 @@ mod not_xml;
 mod numbers;
 
 pub(crate) use element::{Element, Format, Kind, Reading, Text, tag_at};
-pub(crate) use not_xml::not_xml;
+pub(crate) use not_xml::{check_attributes, not_xml};

@@ -1,8 +1,9 @@
-//! A file that is not XML.
+//! A file that is not XML, or that no parser should be given.
 
 use crate::findings::Findings;
 use std::ops::Range;
-use wrasse_document::Complaint;
+use std::sync::Arc;
+use wrasse_document::{Complaint, Source};
 
 /// The complaint about a file that is not XML.
 pub(crate) fn not_xml(
@@ -17,6 +18,24 @@ pub(crate) fn not_xml(
     let message = told.strip_suffix(&format!(" at {position}")).unwrap_or(&told);
     found.error(&at, format!("not XML: {message}"), "here", help);
     found.into_complaints()
+}
+
+/// Attributes of one element: the parser compares each with all others.
+const MOST_ATTRIBUTES: usize = 500;
+
+/// The complaint about an element with more attributes than any model has, if there is one.
+pub(crate) fn check_attributes(source: &Arc<Source>) -> Result<(), Vec<Complaint>> {
+    let text = &source.text;
+    // No attribute holds a pointed bracket that opens.
+    let tags = text.split('<').filter(|tag| tag.len() > 4 * MOST_ATTRIBUTES);
+    let is_comment = |tag: &&str| tag.starts_with("!--") || tag.starts_with("![CDATA[");
+    let mut crowded = tags.filter(|tag| tag.matches('=').count() > MOST_ATTRIBUTES);
+    let Some(tag) = crowded.find(|tag| !is_comment(tag)) else { return Ok(()) };
+    let begin = tag.as_ptr().addr() - text.as_ptr().addr();
+    let mut found = Findings::new(source);
+    let message = format!("an element with more than {MOST_ATTRIBUTES} attributes");
+    found.error(&(begin..begin + 1), message, "this element", "no model has so many");
+    Err(found.into_complaints())
 }
 
 /// The character at a row and column, both from 1.

@@ -66,6 +66,7 @@ impl Reading<'_> {
             .map(|(word, at)| {
                 let number = finite(word);
                 if let Err((problem, help)) = number {
+                    let word = shortened(word);
                     let message = format!("`{name}` of <{}>: '{word}' is {problem}", element.tag);
                     self.found.error(&at, message, problem, help);
                 }
@@ -101,11 +102,25 @@ fn words<'a>(value: &Text<'a>, text: &'a str) -> Vec<(&'a str, Range<usize>)> {
     }
 }
 
+/// Letters of a word that are told.
+const TOLD: usize = 40;
+
+/// A word as it is told in a complaint.
+fn shortened(word: &str) -> std::borrow::Cow<'_, str> {
+    match word.char_indices().nth(TOLD) {
+        Some((at, _)) => format!("{}…", &word[..at]).into(),
+        None => word.into(),
+    }
+}
+
 /// A finite number, or what is wrong with it and how to mend it.
 fn finite(word: &str) -> Result<f64, (&'static str, &'static str)> {
     match word.parse::<f64>() {
         Ok(x) if x.is_finite() => Ok(x),
         Ok(_) => Err(("not finite", "write a finite number")),
+        Err(_) if word.starts_with('$') || word.contains("${") => {
+            Err(("a xacro expression", crate::urdf::EXPAND_XACRO))
+        }
         Err(_) if word.contains(',') => {
             Err(("not a number", "the decimal sign is a point; separate numbers by spaces"))
         }
