@@ -280,8 +280,7 @@ impl<T: Real, const J: usize> Bodies<T, J> {
             let motion = self.motions[k.robot.joint(j).parent].of_link(k, j);
             let matter = Matter::of_body(&k.robot.links.M_L.at(j), &motion);
             self.motions.links[j] = motion;
-            self.matter.links[j] = matter;
-            self.carried.links[j] = matter;
+            (self.matter.links[j], self.carried.links[j]) = (matter, matter);
         }
         for j in k.robot.joints().rev() {
             let behind = self.carried.links[j];
@@ -324,8 +323,7 @@ impl<T: Real, const J: usize> Bodies<T, J> {
         }
         found
     }
-    /// Add what more accelerations take of the links. The force on the base is left as it was: no
-    /// derivative asks for it.
+    /// Add what more accelerations take of the links; no derivative asks for the force on the base.
     #[inline(always)]
     pub(crate) fn accelerate(
         &self,
@@ -430,9 +428,8 @@ impl<T: Real, const J: usize> InverseDynamicsDerivatives<T, J> {
         bodies.mass_matrix_into(k, &mut self.by_acceleration);
         let forces = bodies.forces(k, nudot, outside);
         self.force = bodies.project(k, &forces);
-        for j in k.robot.joints() {
-            self.force.joints[j] += k.robot.links.rotor[j] * nudot.joints[j];
-        }
+        let rotor = &k.robot.links.rotor;
+        k.robot.joints().for_each(|j| self.force.joints[j] += rotor[j] * nudot.joints[j]);
         self.differentiate(k, &bodies, &forces);
     }
     /// The derivatives by positions and velocities; that by acceleration is there.

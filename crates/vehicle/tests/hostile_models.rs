@@ -1,6 +1,8 @@
 //! Models that were made to break a reader: each has a clear complaint, in a time that grows with its
 //! length and no faster.
 
+#![allow(clippy::format_collect, reason = "the text of a large model, part by part")]
+
 use std::sync::mpsc::channel;
 use std::thread::spawn;
 use std::time::Duration;
