@@ -5,12 +5,11 @@ use wrasse_spatial::{SpatialVelocity, Vec3};
 use wrasse_vehicle::{Finding, FindingKind, Fine, JOINTS, Vehicle};
 use wrasse_world::{BaseAttitude, Equipment, Noise, Scene, Stepper, SystemSetup};
 
-/// Length of a coast (s).
-const DURATION: f64 = 10.0;
 /// Step of the integrator (s), classical Runge-Kutta of order 4.
 const STEP: f64 = 1e-3;
-/// The ledger is brought up to date as often (s).
+/// The ledger is brought up to date so often (s), and so many times.
 const PERIOD: f64 = 0.1;
+const PERIODS: u32 = 100;
 /// Largest rates at the start: joints that turn and that slide (rad/s, m/s), base (rad/s, m/s).
 const RATES: [f64; 4] = [0.5, 0.1, 0.05, 0.1];
 /// Relative drift that is told (–). Where the fastest motion takes many steps the drift is round-off: at
@@ -52,7 +51,7 @@ pub fn coast(vehicle: &Vehicle, seed: u64) -> Coast {
     });
     let mut ledger = scene.open_ledger();
     let mut broke_down = None;
-    for _ in 0..(DURATION / PERIOD).round() as usize {
+    for _ in 0..PERIODS {
         scene.begin_period();
         if scene.advance(PERIOD).is_err() {
             broke_down = Some(scene.time());
@@ -97,7 +96,8 @@ impl Coast {
         ];
         let drifts = format!(
             "energy drifts by {energy:.1e}, linear momentum by {linear:.1e}, angular momentum by \
-             {angular:.1e} in {DURATION} s (relative; seed {seed}, step {STEP} s)"
+             {angular:.1e} in {} s (relative; seed {seed}, step {STEP} s)",
+            PERIOD * f64::from(PERIODS)
         );
         let message = match broke_down {
             Some(t) => format!("after {t:.1} s a number is no longer finite; until then {drifts}"),
