@@ -58,7 +58,6 @@ mod tests {
                 let even = solid.iter().map(|axis| axis.gyration).fold(0.0, f64::max);
                 least = least.min(part.gyration() / even);
                 let reach = part.own.farthest_from(part.matter.p_cm);
-                println!("{} {} {}", vehicle.name, part.matter.link, part.gyration() / reach);
                 farthest = farthest.max(part.gyration() / reach);
                 let long = long_axis(&solid, 2.0).zip(long_axis(&part.axes, 2.0));
                 if let Some((shape, matter)) = long {
@@ -67,7 +66,6 @@ mod tests {
                 }
             }
         }
-        println!("{least} {farthest} {widest}");
         assert!(least > 0.6, "measured 0.69: {least}");
         assert!(farthest < 1.25, "measured 1.19: {farthest}");
         assert!(widest < 5.0, "measured 2.6 deg: {widest}");
