@@ -27,8 +27,7 @@ fn carrying(robot: &Robot<f64, JOINTS>, rotor: impl Fn(usize) -> f64) -> Robot<f
 }
 
 fn scenes() -> impl Iterator<Item = Scene> {
-    (0..40).map(|seed| {
-        let joints = 1 + seed as usize % JOINTS;
+    (0..40).zip((1..=JOINTS).cycle()).map(|(seed, joints)| {
         let recipe = Recipe { seed, joints, arms: 1 + joints / 5, sliding: 0.3, branching: 0.3 };
         let mut scene = Scene::new(&recipe);
         scene.robot = carrying(&scene.robot, rotor);

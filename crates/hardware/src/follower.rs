@@ -73,8 +73,9 @@ mod tests {
         let followers = [follower(2, 0, -2.0), follower(3, 0, 0.5), follower(1, 4, 3.0)];
         let mut q = [0.1, 9.0, 9.0, 9.0, -0.2];
         follow(&followers, &mut q);
-        for (found, expected) in q.into_iter().zip([0.1, -0.3, 0.1, 0.35, -0.2]) {
-            assert!((found - expected as f64).abs() < 1e-15, "{q:?}");
+        let expected: [f64; 5] = [0.1, -0.3, 0.1, 0.35, -0.2];
+        for (found, expected) in q.into_iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-15, "{q:?}");
         }
         let mut v = [1.0, 0.0, 0.0, 0.0, -0.5];
         follow_rates(&followers, &mut v);
