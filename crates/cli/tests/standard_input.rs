@@ -84,7 +84,7 @@ fn what_is_wrong_on_standard_input_ends_with_2() {
     let large = vec![b'#'; (16 << 20) + 1];
     for (input, words) in [
         (&b"name = 3 kg"[..], "--> stdin.toml:1:"),
-        (b"\xff\xfe", "error: standard input is not UTF-8 text"),
+        (b"\xff\xff", "error: standard input is not UTF-8 text"),
         (&large, "error: standard input cannot be read: it is larger than 16 MiB"),
         (b"", "--> stdin.toml"),
         (b"<robot", "--> stdin.xml"),
