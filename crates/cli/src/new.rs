@@ -6,6 +6,7 @@ use crate::new_file::put_new;
 use clap::{Args, Subcommand};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use wrasse_dynamics::BodyId;
 use wrasse_mission::read_mission;
 use wrasse_vehicle::{NoVehicle, Vehicle, find_vehicle, read_vehicle};
 
@@ -113,6 +114,11 @@ fn for_vehicle(text: &str, vehicle: &str, place: &OutFile) -> Result<String, Fai
     };
     if found.attitude_actuator.is_none() {
         text = with_value(&text, "actuators", "unlimited");
+    }
+    // Of a vehicle without tools the frame at the tip, as its file has it, is guided.
+    let tip = found.frames.iter().rev().find(|named| named.frame.body != BodyId::Base);
+    if let Some(tip) = tip.filter(|_| found.tools.is_empty()) {
+        text = with_value(&text.replacen("\n# tool = ", "\ntool = ", 1), "tool", &tip.name);
     }
     Ok(text)
 }
