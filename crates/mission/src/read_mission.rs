@@ -20,7 +20,7 @@ use crate::toml::failure::failures;
 use crate::toml::initial::start;
 use crate::toml::output::output_rate;
 use crate::toml::payload::payloads;
-use crate::toml::phase::phases;
+use crate::toml::phase::{phases, refuse_paths_over_gears};
 use crate::toml::requirement::requirements;
 use crate::toml::sensors::sensors;
 use crate::toml::world::{base_attitude, environment, stepper, torque_joints};
@@ -122,6 +122,7 @@ fn read_case(
     let base = base_attitude(r, &file, &start);
     let environment = environment(r, &file);
     let phases = phases(r, &file, &payloads);
+    refuse_paths_over_gears(r, &phases, &setup.assignment);
     let (quantities, requirements) = requirements(r, &file);
     let torque = torque_joints(r, &file);
     setup.position_driven = torque.map(|torque| !torque);

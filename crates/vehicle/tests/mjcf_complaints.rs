@@ -1,7 +1,10 @@
 //! What a user is told about an MJCF that is wrong: which complaint, where, and nothing besides.
 
+mod mistakes;
+
+use mistakes::{Mistake, each_alone_in, line, told_of, under_the_caret};
 use wrasse_document::{Complaint, Severity};
-use wrasse_vehicle::{Vehicle, read_vehicle};
+use wrasse_vehicle::read_vehicle;
 
 const ARM: &str = r#"<mujoco model="arm">
   <compiler angle="radian"/>
@@ -29,42 +32,12 @@ const ARM: &str = r#"<mujoco model="arm">
 "#;
 
 fn told(text: &str) -> Vec<Complaint> {
-    match read_vehicle("arm.xml", text) {
-        Ok(Vehicle { remarks, .. }) => remarks,
-        Err(complaints) => {
-            assert!(complaints.iter().any(|c| c.severity == Severity::Error), "{complaints:#?}");
-            complaints
-        }
-    }
+    told_of("arm.xml", text)
 }
-
-fn line(complaint: &Complaint) -> usize {
-    let start = complaint.span.as_ref().expect("a place").start;
-    1 + complaint.source.text[..start].matches('\n').count()
-}
-
-fn under_the_caret(complaint: &Complaint) -> &str {
-    &complaint.source.text[complaint.span.clone().expect("a place")]
-}
-
-/// A mistake: what it replaces and by what; then line, text under the caret, and part of the message.
-struct Mistake(&'static str, &'static str, usize, &'static str, &'static str);
 
 #[track_caller]
 fn each_alone(severity: Severity, mistakes: &[Mistake]) {
-    for Mistake(right, wrong, at_line, caret, message) in mistakes {
-        assert_eq!(ARM.matches(right).count(), 1, "not once in the file: {right}");
-        let complaints = told(&ARM.replace(right, wrong));
-        let [complaint] = &complaints[..] else {
-            let told: Vec<_> = complaints.iter().map(|c| (&c.message, &c.help)).collect();
-            panic!("{wrong}: expected one complaint, found {told:#?}")
-        };
-        assert_eq!(complaint.severity, severity, "{complaint:#?}");
-        assert_eq!(line(complaint), *at_line, "{complaint:#?}");
-        assert_eq!(under_the_caret(complaint), *caret, "{complaint:#?}");
-        let whole = format!("{}; {}", complaint.message, complaint.help.as_deref().unwrap_or(""));
-        assert!(whole.contains(message), "expected '{message}' in '{whole}'");
-    }
+    each_alone_in(("arm.xml", ARM), severity, mistakes);
 }
 
 #[test]
@@ -212,4 +185,22 @@ fn the_root_of_a_file_says_which_xml_it_is() {
     assert!(help("arm.sdf", "").contains("convert SDF to URDF"));
     let not_closed = told("<mujoco>\n  <worldbody>\n</mujoco>");
     assert_eq!(line(&not_closed[0]), 3);
+}
+
+/// MuJoCo moves the frame of a body that floats and carries none, where it is told to.
+#[test]
+fn a_base_whose_frame_would_be_moved_is_refused_unless_it_carries_others() {
+    let alone = |compiler: &str, align: &str, child: &str| {
+        told(&format!(
+            "<mujoco><compiler {compiler}/><worldbody><body name=\"b\"><freejoint{align}/>\
+             <geom size=\"1\" pos=\"0.1 0 0\"/>{child}</body></worldbody></mujoco>"
+        ))
+        .len()
+    };
+    let child = "<body name=\"c\"><joint/><geom size=\"1\"/></body>";
+    assert_eq!(alone("", "", ""), 0);
+    assert_eq!(alone("", " align=\"true\"", ""), 1);
+    assert_eq!(alone("alignfree=\"true\"", "", ""), 1);
+    assert_eq!(alone("alignfree=\"true\"", " align=\"false\"", ""), 0);
+    assert_eq!(alone("", " align=\"true\"", child), 0);
 }

@@ -1,12 +1,14 @@
 //! MJCF models, read and held against what MuJoCo 4.0.0 computes for them.
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
+mod golden_matrix;
+
+use golden_matrix::{dense_mass_matrix, relative_difference};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use wrasse_document::Severity;
-use wrasse_dynamics::{State, kinematics, mass_matrix};
 use wrasse_testing::larger;
-use wrasse_vehicle::{JOINTS, Vehicle, read_vehicle};
+use wrasse_vehicle::{Vehicle, read_vehicle};
 
 /// Sums of a few hundred products, each off by ε = 2e-16 of the largest.
 const ROUND_OFF: f64 = 1e-14;
@@ -35,29 +37,6 @@ fn off(name: &str) -> f64 {
     states.iter().zip(matrices).fold(0.0, |off, (state, expected)| {
         larger(off, relative_difference(&dense_mass_matrix(&vehicle, &state["joints"]), expected))
     })
-}
-
-fn dense_mass_matrix(vehicle: &Vehicle, joints: &Value) -> Vec<Vec<f64>> {
-    let mut state = State::<f64, JOINTS>::default();
-    for (q, name) in state.q.iter_mut().zip(&vehicle.joint_names) {
-        *q = joints[name]["position"].as_f64().expect("a position");
-    }
-    let M = mass_matrix(&kinematics(&vehicle.robot, &state));
-    let n = vehicle.robot.joint_count();
-    (0..6 + n).map(|i| (0..6 + n).map(|k| M.element(i, k)).collect()).collect()
-}
-
-fn relative_difference(M: &[Vec<f64>], expected: &Value) -> f64 {
-    let (mut off, mut scale) = (0.0_f64, 0.0_f64);
-    assert_eq!(expected.as_array().expect("rows").len(), M.len());
-    for (i, row) in M.iter().enumerate() {
-        for (k, &found) in row.iter().enumerate() {
-            let wanted = expected[i][k].as_f64().expect("a number");
-            off = larger(off, (found - wanted).abs());
-            scale = larger(scale, wanted.abs());
-        }
-    }
-    off / scale
 }
 
 /// Classes, degrees, geoms with density and mass, joints off the origin, references, sites.

@@ -1,7 +1,10 @@
 //! What a user is told about a URDF that is wrong: which complaint, where, and nothing besides.
 
+mod mistakes;
+
+use mistakes::{Mistake, each_alone_in, line, told_of, under_the_caret};
 use wrasse_document::{Complaint, Severity, render};
-use wrasse_vehicle::{JOINTS, Vehicle, read_vehicle};
+use wrasse_vehicle::{JOINTS, read_vehicle};
 
 const ARM: &str = r#"<robot name="arm">
   <link name="bus">
@@ -48,41 +51,12 @@ const ARM: &str = r#"<robot name="arm">
 "#;
 
 fn told(text: &str) -> Vec<Complaint> {
-    match read_vehicle("arm.urdf", text) {
-        Ok(Vehicle { remarks, .. }) => remarks,
-        Err(complaints) => {
-            assert!(complaints.iter().any(|c| c.severity == Severity::Error), "{complaints:#?}");
-            complaints
-        }
-    }
+    told_of("arm.urdf", text)
 }
-
-fn line(complaint: &Complaint) -> usize {
-    let start = complaint.span.as_ref().expect("a place").start;
-    1 + complaint.source.text[..start].matches('\n').count()
-}
-
-fn under_the_caret(complaint: &Complaint) -> &str {
-    &complaint.source.text[complaint.span.clone().expect("a place")]
-}
-
-/// A mistake: what it replaces and by what; then line, text under the caret, and part of the message.
-struct Mistake(&'static str, &'static str, usize, &'static str, &'static str);
 
 #[track_caller]
 fn each_alone(severity: Severity, mistakes: &[Mistake]) {
-    for Mistake(right, wrong, at_line, caret, message) in mistakes {
-        assert_eq!(ARM.matches(right).count(), 1, "not once in the file: {right}");
-        let complaints = told(&ARM.replace(right, wrong));
-        let [complaint] = &complaints[..] else {
-            panic!("{wrong}: expected one complaint, found {complaints:#?}")
-        };
-        assert_eq!(complaint.severity, severity, "{complaint:#?}");
-        assert_eq!(line(complaint), *at_line, "{complaint:#?}");
-        assert_eq!(under_the_caret(complaint), *caret, "{complaint:#?}");
-        let whole = format!("{}; {}", complaint.message, complaint.help.as_deref().unwrap_or(""));
-        assert!(whole.contains(message), "expected '{message}' in '{whole}'");
-    }
+    each_alone_in(("arm.urdf", ARM), severity, mistakes);
 }
 
 #[test]

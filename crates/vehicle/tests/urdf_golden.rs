@@ -1,11 +1,14 @@
 //! The golden robots, read and held against what Pinocchio 4.1.0 computes for them.
 #![allow(non_snake_case, reason = "monogram notation, see book/src/notation.md")]
 
+mod golden_matrix;
+
+use golden_matrix::{dense_mass_matrix, relative_difference};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
-use wrasse_dynamics::{BodyId, State, kinematics, mass_matrix};
+use wrasse_dynamics::BodyId;
 use wrasse_testing::larger;
-use wrasse_vehicle::{JOINTS, Vehicle, read_vehicle};
+use wrasse_vehicle::{Vehicle, read_vehicle};
 
 fn golden(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation/golden").join(name)
@@ -76,28 +79,4 @@ fn links_fixed_to_each_other_are_one_body_with_the_mass_of_all() {
     assert!((I_parts.xx - (0.0144 + 100.0 / 3.0)).abs() < 1e-13, "{I_parts:?}");
     let tool = vehicle.frame("tool").expect("the tool");
     assert_eq!((tool.body, tool.X_BF.translation.x), (BodyId::Link(6), 0.2));
-}
-
-fn dense_mass_matrix(vehicle: &Vehicle, joints: &Value) -> Vec<Vec<f64>> {
-    let mut state = State::<f64, JOINTS>::default();
-    for (q, name) in state.q.iter_mut().zip(&vehicle.joint_names) {
-        *q = joints[name]["position"].as_f64().unwrap_or(0.0);
-    }
-    let M = mass_matrix(&kinematics(&vehicle.robot, &state));
-    let n = vehicle.robot.joint_count();
-    (0..6 + n).map(|i| (0..6 + n).map(|k| M.element(i, k)).collect()).collect()
-}
-
-/// Largest difference as a part of the largest element.
-fn relative_difference(M: &[Vec<f64>], expected: &Value) -> f64 {
-    let (mut off, mut scale) = (0.0_f64, 0.0_f64);
-    assert_eq!(expected.as_array().expect("rows").len(), M.len());
-    for (i, row) in M.iter().enumerate() {
-        for (k, &found) in row.iter().enumerate() {
-            let wanted = expected[i][k].as_f64().expect("a number");
-            off = larger(off, (found - wanted).abs());
-            scale = larger(scale, wanted.abs());
-        }
-    }
-    off / scale
 }

@@ -240,9 +240,6 @@ pub(crate) fn guided_tool(
     let Some(guided) = name.or(first) else { return no_tool(r, path) };
     let before = r.complaints.len();
     let frame = tool(r, path, guided);
-    if r.complaints.len() == before {
-        refuse_gears_on_the_way(r, path, guided, &frame);
-    }
     if name.is_some() && r.complaints.len() == before && frame.body == BodyId::Base {
         let message = format!("{guided} is fixed to the base: no joint moves it");
         let help = match r.vehicle.tools.join(", ") {
@@ -252,27 +249,6 @@ pub(crate) fn guided_tool(
         r.error(path, message, &help);
     }
     frame
-}
-
-/// Complains of a tool that hangs on a joint that follows another one, or is followed: the guidance moves
-/// each joint of an arm for itself.
-fn refuse_gears_on_the_way(r: &mut Reading<'_>, path: &[Step<'_>], tool: &str, frame: &Frame<f64>) {
-    let on_way: Vec<usize> = r.vehicle.robot.path_to_base(frame.body).collect();
-    let geared = r
-        .vehicle
-        .followers
-        .iter()
-        .find(|f| on_way.contains(&f.joint) || on_way.contains(&f.leader));
-    let Some(geared) = geared else { return };
-    let name = |j: usize| r.vehicle.joint_names[j].clone();
-    let message = format!(
-        "{tool} hangs on joint {} or {}, one of which follows the other: no path is planned for it",
-        name(geared.joint),
-        name(geared.leader)
-    );
-    let help = "guide a tool before these joints, or fix them: fix = [\"…\"] in an [[include]]";
-    let path = if r.is_there(path) { path } else { at!["vehicle"] };
-    r.error(path, message, help);
 }
 
 /// Of a vehicle without tools nothing says which frame is guided: its frames are listed. Where no joint

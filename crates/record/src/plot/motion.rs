@@ -53,12 +53,23 @@ pub(crate) fn drawing(snapshots: &[Snapshot]) -> Option<Markup> {
             }
             figcaption {
                 "The vehicle at " (times.join(", ")) " s" (shades) ". "
-                span.key.path { "path of the tool" } " "
+                span.key.path { (path_of(&drawn)) } " "
                 span.key.wanted { "where it should be" }
                 " Both views to one scale, in inertial axes."
             }
         }
     })
+}
+
+/// The path in words: of the tools that are guided, in their order.
+fn path_of(drawn: &[&Snapshot]) -> String {
+    let mut guided: Vec<&str> = vec![];
+    for snapshot in drawn {
+        if !guided.contains(&snapshot.guided.as_str()) {
+            guided.push(&snapshot.guided);
+        }
+    }
+    format!("path of {}", guided.join(", "))
 }
 
 fn drawable(snapshot: &Snapshot) -> bool {
@@ -263,6 +274,7 @@ mod tests {
         };
         let wild = Snapshot { tool: [f64::NAN, f64::INFINITY, 1e300], ..calm.clone() };
         let svg = drawing(&[calm, wild.clone()]).unwrap().0;
+        assert!(svg.contains("path of tool"), "the tool is named");
         assert!(!svg.contains("NaN") && !svg.contains("inf,"), "{svg}");
         assert!(drawing(&[wild]).is_none());
     }

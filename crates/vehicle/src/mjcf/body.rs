@@ -8,6 +8,7 @@ use super::geom::GEOM;
 use super::joint::{FREE_JOINT, JOINT, MjcfJoint, Motion, name_of};
 use crate::assembly::{AssemblyJoint, Link, Matter, Outline};
 use crate::xml::{Element, Kind, Reading};
+use roxmltree::Node;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use wrasse_hardware::JointLimits;
@@ -148,6 +149,7 @@ impl<'c, 'd, 't, 'r> Bodies<'c, 'd, 't, 'r> {
         self.joint_count += 1;
         if placed.node.tag_name().name() == FREE_JOINT.tag {
             let own: Element<'d, 't> = self.reading.open(placed.node, &FREE_JOINT);
+            self.refuse_alignment(&own, placed.node);
             return free(&Styled::plain(own), number);
         }
         let styled = self.styled(placed, &JOINT);
@@ -156,6 +158,23 @@ impl<'c, 'd, 't, 'r> Bodies<'c, 'd, 't, 'r> {
             self.references.insert(joint.name.clone(), joint.reference);
         }
         joint
+    }
+
+    /// MuJoCo moves the frame of a body that floats and carries none, if it is told to. Here a frame stays
+    /// where the file puts it: poses and mass matrix would be those of another one.
+    fn refuse_alignment(&mut self, own: &Element<'_, '_>, node: Node<'_, '_>) {
+        let body = node.parent_element();
+        let is_body = |node: &Node<'_, '_>| node.has_tag_name(BODY.tag);
+        if body.is_some_and(|body| body.children().any(|node| is_body(&node))) {
+            return;
+        }
+        if self.reading.truth(own, "align").unwrap_or(self.compiler.align_free) {
+            let at = own.attribute("align").map_or(&own.at, |written| &written.at).clone();
+            let message = "the frame of the base is moved to its principal axes".to_owned();
+            let help =
+                "write align=\"false\" in the <freejoint>, and give poses in the frame of the file";
+            self.reading.found.error(&at, message, "not supported", help);
+        }
     }
 
     /// The base floats; whatever else holds it to the world would change how it moves.

@@ -17,10 +17,10 @@ const COMPILER: Kind = Kind {
         "balanceinertia",
         "settotalmass",
         "coordinate",
+        "alignfree",
     ],
     children: &[],
     unused: &[
-        "alignfree",
         "assetdir",
         "conflict",
         "convexhull",
@@ -66,6 +66,8 @@ pub(super) struct Compiler {
     pub(super) least_inertia: f64,
     /// Inertias that cannot be become those of a ball with the same trace.
     pub(super) balance: bool,
+    /// The frame of a body that floats alone is moved to its centre of mass and principal axes.
+    pub(super) align_free: bool,
     /// Mass of the whole (kg), to which all masses and inertias are scaled.
     pub(super) total_mass: Option<f64>,
 }
@@ -81,6 +83,7 @@ impl Default for Compiler {
             least_mass: 0.0,
             least_inertia: 0.0,
             balance: false,
+            align_free: false,
             total_mass: None,
         }
     }
@@ -103,6 +106,7 @@ impl Compiler {
         let mut yes = |name, default| reading.truth(&element, name).unwrap_or(default);
         self.autolimits = yes("autolimits", self.autolimits);
         self.balance = yes("balanceinertia", self.balance);
+        self.align_free = yes("alignfree", self.align_free);
         match reading.word(&element, "inertiafromgeom", &["false", "true", "auto"]) {
             Some("false") => self.from_geoms = FromGeoms::Never,
             Some("true") => self.from_geoms = FromGeoms::Always,

@@ -43,7 +43,7 @@ pub(super) const JOINT: Kind = Kind {
     ],
 };
 pub(super) const FREE_JOINT: Kind =
-    Kind { tag: "freejoint", attributes: &["name"], children: &[], unused: &["align", "group"] };
+    Kind { tag: "freejoint", attributes: &["name", "align"], children: &[], unused: &["group"] };
 
 /// How a joint lets its body move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

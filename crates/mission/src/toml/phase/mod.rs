@@ -1,5 +1,6 @@
 //! `[[phase]]`: what happens, until when, and what comes next.
 
+mod geared_tool;
 mod grip;
 mod hold;
 mod move_joints;
@@ -11,6 +12,7 @@ use crate::reading::Reading;
 use crate::toml::MissionFile;
 use crate::toml::control::{ArmLawFile, RATES, TaskFile};
 use crate::toml::pose::leader;
+pub(crate) use geared_tool::refuse_paths_over_gears;
 use grip::{GraspFile, ReleaseFile};
 use hold::{HoldFile, UnloadByPostureFile};
 use move_joints::MoveJointsFile;
