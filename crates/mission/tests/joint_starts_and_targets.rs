@@ -4,6 +4,7 @@ use std::path::Path;
 use wrasse_document::{Complaint, Severity, render};
 use wrasse_mission::{Mission, read_mission};
 use wrasse_rehearsal::{End, RunOptions, run_case};
+use wrasse_testing::largest;
 
 /// A mission with the vehicle of the data folder, whose joints are elbow (10 to 150 deg), slide (0.1 to
 /// 0.6 m), `left_finger` (0 to 40 deg) and `right_finger`, which is at 5 deg less the left one's angle.
@@ -154,4 +155,30 @@ fn a_start_that_is_not_given_is_within_the_travel_and_told() {
     assert!(part.iter().any(|r| r.contains("nearest end, elbow at 10 deg\n")), "{part:?}");
     let whole = text("[initial]\njoints_m.slide = 0.2\njoints_deg.elbow = 12", "to_deg.elbow = 30");
     assert!(remarks(&whole).iter().all(|r| !r.contains("nearest end")));
+}
+
+/// Driven by torque: the leader's drive bears what its follower takes, and the follower's gives nothing.
+#[test]
+fn a_follower_is_driven_through_its_leader() {
+    let text = text(BENT, "to_deg.left_finger = 35, to_deg.elbow = 60")
+        .replace("base_attitude = \"held\"", "base_attitude = \"controlled\"\njoints = \"torque\"")
+        .replace("rate_hz = 20", "rate_hz = 100\nactuators = \"unlimited\"");
+    let mut case = sound(&text).cases.remove(0);
+    case.output_rate = 100.0;
+    let outcome = run_case(&case, RunOptions::default(), &mut |_, _| {});
+    assert_eq!(outcome.end, End::Completed);
+    let channel = |name: &str| {
+        let found = outcome.telemetry.channels.iter().find(|c| c.name == name);
+        found.unwrap_or_else(|| panic!("no {name}")).values.clone()
+    };
+    let off = |joint: &str| {
+        let [is, wanted] = ["position", "commanded_position"]
+            .map(|what| channel(&format!("joint.{joint}.{what}")));
+        largest(is.iter().zip(&wanted).map(|(a, b)| a - b))
+    };
+    let (leads, follows) = (off("left_finger"), off("right_finger"));
+    assert!(leads < 4e-6 && follows < 4e-6, "measured 6.2e-7 deg: {leads:e} {follows:e}");
+    assert_eq!(largest(channel("joint.right_finger.effort")), 0.0);
+    assert_eq!(largest(channel("joint.right_finger.commanded_effort")), 0.0);
+    assert!(largest(channel("joint.left_finger.effort")) > 1e-6);
 }

@@ -13,9 +13,10 @@ pub fn smaller(a: f64, b: f64) -> f64 {
     if a.is_nan() || a < b { a } else { b }
 }
 
-/// The largest of some numbers and of zero; NaN if one of them is.
+/// The largest magnitude of some numbers, zero of none; NaN if one of them is. An error counts whatever
+/// its sign.
 pub fn largest(numbers: impl IntoIterator<Item = f64>) -> f64 {
-    numbers.into_iter().fold(0.0, larger)
+    numbers.into_iter().fold(0.0, |most, x| larger(most, x.abs()))
 }
 
 /// The largest error so far.
@@ -74,7 +75,7 @@ mod tests {
             assert!(larger(a, b).is_nan() && smaller(a, b).is_nan());
         }
         assert_eq!((larger(1.0, 2.0), smaller(1.0, 2.0), smaller(2.0, 1.0)), (2.0, 1.0, 1.0));
-        assert_eq!((largest([]), largest([-1.0]), largest([1.0, 3.0, 2.0])), (0.0, 0.0, 3.0));
+        assert_eq!((largest([]), largest([-1.0]), largest([1.0, -3.0, 2.0])), (0.0, 1.0, 3.0));
     }
 
     #[test]

@@ -164,7 +164,8 @@ fn a_quaternion_of_an_origin_turns_as_the_same_angles_do() {
     let rpy = read(&boom_on("rpy=\"0 0 1.5707963267948966\""));
     let half = FRAC_1_SQRT_2;
     let quaternion = read(&boom_on(&format!("quat_xyzw=\"0 0 {half} {half}\"")));
-    let [a, b] = [rpy, quaternion].map(|v| v.robot.joint(0).X_PB_zero.rotation);
+    let R_PB = |v: &Vehicle| v.robot.joint(0).X_PB_zero.rotation;
+    let (a, b) = (R_PB(&rpy), R_PB(&quaternion));
     let off = (0..3).map(|i| (a.rows[i] - b.rows[i]).norm()).fold(0.0, f64::max);
     assert!(off < 1e-15, "measured 2.2e-16: {off:e}");
     one(&boom_on("quat_xyzw=\"0 0 1 1\""), Severity::Error, "must have length 1");

@@ -49,11 +49,17 @@ pub(super) enum FromGeoms {
     Auto,
 }
 
+/// The unit of the angles of a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum AngleUnit {
+    Degree,
+    Radian,
+}
+
 /// What `<compiler>` says; MuJoCo's defaults where it is silent.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Compiler {
-    /// Angles are in degrees, not in radians.
-    pub(super) degrees: bool,
+    pub(super) angle: AngleUnit,
     /// Axes of `euler`: x, y, z about axes that turn along, X, Y, Z about fixed ones.
     pub(super) euler: [char; 3],
     /// A range limits without the word `limited`.
@@ -75,7 +81,7 @@ pub(super) struct Compiler {
 impl Default for Compiler {
     fn default() -> Self {
         Self {
-            degrees: true,
+            angle: AngleUnit::Degree,
             euler: ['x', 'y', 'z'],
             autolimits: true,
             from_geoms: FromGeoms::Auto,
@@ -92,14 +98,20 @@ impl Default for Compiler {
 impl Compiler {
     /// An angle of the file (rad).
     pub(super) fn radians(&self, angle: f64) -> f64 {
-        if self.degrees { angle.to_radians() } else { angle }
+        match self.angle {
+            AngleUnit::Degree => angle.to_radians(),
+            AngleUnit::Radian => angle,
+        }
     }
 
     /// Takes over what one `<compiler>` says.
     pub(super) fn read(&mut self, node: Node<'_, '_>, reading: &mut Reading<'_>) {
         let element = reading.open(node, &COMPILER);
-        let angle = reading.word(&element, "angle", &["degree", "radian"]);
-        self.degrees = angle.map_or(self.degrees, |unit| unit == "degree");
+        self.angle = match reading.word(&element, "angle", &["degree", "radian"]) {
+            Some("degree") => AngleUnit::Degree,
+            Some(_) => AngleUnit::Radian,
+            None => self.angle,
+        };
         if let Some(written) = element.attribute("eulerseq") {
             self.euler = reading.sequence(written).unwrap_or(self.euler);
         }

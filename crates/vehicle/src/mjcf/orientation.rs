@@ -1,6 +1,6 @@
 //! Where an element is on its parent, in the five ways of MJCF to give an orientation.
 
-use super::compiler::Compiler;
+use super::compiler::{AngleUnit, Compiler};
 use super::defaults::Styled;
 use crate::rotation::sin_cos;
 use crate::xml::{Element, Reading};
@@ -81,7 +81,10 @@ impl Compiler {
     }
 
     fn sin_cos(&self, angle: f64) -> (f64, f64) {
-        if self.degrees { sin_cos(angle) } else { Real::sin_cos(angle) }
+        match self.angle {
+            AngleUnit::Degree => sin_cos(angle),
+            AngleUnit::Radian => Real::sin_cos(angle),
+        }
     }
 }
 
