@@ -11,6 +11,7 @@ mod list;
 mod sensor;
 mod set_point;
 mod slosh;
+mod surface;
 mod thruster;
 mod wheel;
 
@@ -22,6 +23,7 @@ pub use list::List;
 pub use sensor::{RateGyro, Sensors, StarTracker, TrackerReading};
 pub use set_point::{SetPoint, SetPointMotion};
 pub use slosh::{Slosh, TankShape};
+pub use surface::{Friction, Hardness, Surface};
 pub use thruster::{STANDARD_GRAVITY, THRUSTERS, Tank, Thruster};
 pub use wheel::{ReactionWheel, WHEELS};
 
