@@ -125,3 +125,21 @@ pub enum Abramson1966 {}
 /// Institute, 2000.
 #[derive(Debug)]
 pub enum Dodge2000 {}
+/// K. Hunt, F. Crossley, *Coefficient of restitution interpreted as damping in vibroimpact*, ASME
+/// Journal of Applied Mechanics 42(2), 1975.
+#[derive(Debug)]
+pub enum HuntCrossley1975 {}
+/// P. Dupont, V. Hayward, B. Armstrong, F. Altpeter, *Single state elastoplastic friction models*, IEEE
+/// Transactions on Automatic Control 47(5), 2002.
+#[derive(Debug)]
+pub enum Dupont2002 {}
+/// C. Canudas de Wit, H. Olsson, K. Åström, P. Lischinsky, *A new model for control of systems with
+/// friction*, IEEE Transactions on Automatic Control 40(3), 1995.
+#[derive(Debug)]
+pub enum CanudasDeWit1995 {}
+/// R. Mindlin, *Compliance of elastic bodies in contact*, ASME Journal of Applied Mechanics 16, 1949.
+#[derive(Debug)]
+pub enum Mindlin1949 {}
+/// K. Johnson, *Contact Mechanics*, Cambridge University Press, 1985.
+#[derive(Debug)]
+pub enum Johnson1985 {}

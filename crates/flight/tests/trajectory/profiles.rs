@@ -154,7 +154,8 @@ proptest! {
             let jerk = (profile.at(t + step).acceleration - motion.acceleration) / step;
             over = larger(over, motion.velocity.abs() / limits.speed - 1.0);
             over = larger(over, motion.acceleration.abs() / limits.acceleration - 1.0);
-            back = largest([back, -motion.velocity / limits.speed, motion.position / length - 1.0]);
+            back = larger(back, -motion.velocity / limits.speed);
+            back = larger(back, motion.position / length - 1.0);
             let scale = limits.jerk + limits.acceleration / step;
             jerk_over = larger(jerk_over, (jerk.abs() - limits.jerk) / scale);
         }
