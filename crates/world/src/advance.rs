@@ -31,6 +31,7 @@ impl<const J: usize> Scene<J> {
             let to = next.map_or(period, |at| at - self.clock.into_period);
             self.clock.within = self.clock.into_period + 0.5 * (from + to);
             match self.stepper {
+                _ if self.has_contacts() => self.advance_with_contacts((from, to))?,
                 Stepper::Fixed { step } => self.advance_evenly((from, to), step)?,
                 Stepper::Adaptive { tolerance } => {
                     self.advance_adaptively((from, to), tolerance)?;
@@ -85,13 +86,13 @@ impl<const J: usize> Scene<J> {
                 }
             }
             // The last step ends where the stretch does, to the bit.
-            self.set_points_at(into_period + to);
+            self.follow_set_points_at(into_period + to);
             return Ok(());
         }
     }
 
     /// One step of fixed length from where the scene stands.
-    fn step_evenly(&mut self, t0: f64, h: f64) -> Result<(), NonFinite> {
+    pub(crate) fn step_evenly(&mut self, t0: f64, h: f64) -> Result<(), NonFinite> {
         let (mut method, clock) = (std::mem::take(&mut self.runge_kutta), self.clock);
         let mut places = self.places.take().unwrap_or_default();
         let d = method.step(h, |t, d, rates| self.rates(&mut places, (&clock, t0 + t), d, rates));
@@ -144,7 +145,7 @@ impl<const J: usize> Scene<J> {
     }
 
     /// Try a step from where the scene stands; its estimated error.
-    fn try_step(&mut self, t0: f64, h: f64) -> f64 {
+    pub(crate) fn try_step(&mut self, t0: f64, h: f64) -> f64 {
         let (mut method, clock) = (std::mem::take(&mut self.dormand_prince), self.clock);
         let mut places = self.places.take().unwrap_or_default();
         method.step(h, |t, d, rates| self.rates(&mut places, (&clock, t0 + t), d, rates));
@@ -155,7 +156,7 @@ impl<const J: usize> Scene<J> {
     }
 
     /// Accept the step that was tried last; it ends at `t` (s) into the set-points.
-    fn accept_tried(&mut self, t: f64) -> Result<(), NonFinite> {
+    pub(crate) fn accept_tried(&mut self, t: f64) -> Result<(), NonFinite> {
         let method = std::mem::take(&mut self.dormand_prince);
         let accepted = self.accept(method.displacement(), t);
         self.dormand_prince = method;
@@ -163,7 +164,7 @@ impl<const J: usize> Scene<J> {
     }
 
     /// Joints that follow set-points are where these are at `t` (s), to the bit.
-    fn set_points_at(&mut self, t: f64) {
+    pub(crate) fn follow_set_points_at(&mut self, t: f64) {
         for system in self.systems.iter_mut().flatten() {
             system.follow_set_points(t);
         }
@@ -175,6 +176,11 @@ impl<const J: usize> Scene<J> {
         for system in self.systems.iter_mut().flatten() {
             let length = system.variables.len();
             system.accept(&d[at..at + length], t);
+            at += length;
+        }
+        for coupled in self.couplings.iter_mut().flatten() {
+            let length = coupled.row.len();
+            coupled.accept(&d[at..at + length]);
             at += length;
         }
         let booked = self.booked.iter_mut().zip(&d[at..]).zip(&mut self.booked_carry);

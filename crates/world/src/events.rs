@@ -2,6 +2,7 @@
 //! last bits of time, something happens, and the integration starts again.
 
 use crate::advance::NonFinite;
+use crate::couplings::Coupled;
 use crate::scene::Scene;
 use crate::system::System;
 use std::fmt;
@@ -56,6 +57,7 @@ pub(crate) struct Watched<const J: usize> {
     events: Vec<Event<J>>,
     values: Vec<f64>,
     rows: Vec<(Quat<f64>, Vec<f64>, Vec<f64>)>,
+    couplings: Vec<(Vec<f64>, Vec<f64>)>,
     booked: (Vec<f64>, Vec<f64>),
 }
 
@@ -68,12 +70,19 @@ impl<const J: usize> Scene<J> {
 
     /// Room for a copy of all variables, where anything is watched.
     pub(crate) fn make_room_for_events(&mut self) {
-        if self.watched.events.is_empty() {
+        if !self.may_go_back() {
             return;
         }
         let copy = |s: &System<J>| (s.quat_NB, s.row.clone(), s.carry.clone());
         self.watched.rows = self.systems.iter().flatten().map(copy).collect();
+        let copy = |c: &Coupled| (c.row.clone(), c.carry.clone());
+        self.watched.couplings = self.couplings.iter().flatten().map(copy).collect();
         self.watched.booked = (self.booked.clone(), self.booked_carry.clone());
+    }
+
+    /// Whether anything may end a step before its time.
+    pub(crate) fn may_go_back(&self) -> bool {
+        self.has_events() || self.has_contacts()
     }
 
     pub(crate) fn has_events(&self) -> bool {
@@ -92,17 +101,25 @@ impl<const J: usize> Scene<J> {
             copy.1.copy_from_slice(&system.row);
             copy.2.copy_from_slice(&system.carry);
         }
+        for (copy, coupled) in watched.couplings.iter_mut().zip(self.couplings.iter().flatten()) {
+            copy.0.copy_from_slice(&coupled.row);
+            copy.1.copy_from_slice(&coupled.carry);
+        }
         watched.booked.0.copy_from_slice(&self.booked);
         watched.booked.1.copy_from_slice(&self.booked_carry);
         self.watched = watched;
     }
 
-    fn return_to_start_of_step(&mut self) {
+    pub(crate) fn return_to_start_of_step(&mut self) {
         let watched = &self.watched;
         for (copy, system) in watched.rows.iter().zip(self.systems.iter_mut().flatten()) {
             system.quat_NB = copy.0;
             system.row.copy_from_slice(&copy.1);
             system.carry.copy_from_slice(&copy.2);
+        }
+        for (copy, coupled) in watched.couplings.iter().zip(self.couplings.iter_mut().flatten()) {
+            coupled.row.copy_from_slice(&copy.0);
+            coupled.carry.copy_from_slice(&copy.1);
         }
         self.booked.copy_from_slice(&watched.booked.0);
         self.booked_carry.copy_from_slice(&watched.booked.1);

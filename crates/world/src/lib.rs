@@ -7,6 +7,7 @@
 
 mod advance;
 mod command;
+mod contact;
 mod couplings;
 mod effectors;
 mod environment;
@@ -29,6 +30,11 @@ mod variables;
 
 pub use advance::NonFinite;
 pub use command::Saturation;
+pub use contact::{
+    Bristle, BristleDamping, Contact, ContactAccuracy, ContactEnergy, ContactEvent, ContactLaw,
+    ContactRecord, Curvature, FrictionForce, FrictionLaw, LEAST_RESTITUTION, NormalForce,
+    PairRefused, damping_number, law_of_pair, restitution_at,
+};
 pub use couplings::{Bushing, Coupling, FrameMotion};
 pub use effectors::{
     AppliedWrench, Course, Effector, Instant, Load, MotorTorques, PeriodCommand, SloshPendulum,

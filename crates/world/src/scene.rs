@@ -1,5 +1,6 @@
 //! The scene: systems, what couples and what surrounds them, and their motion through time.
 
+use crate::contact::Touching;
 use crate::couplings::{Coupled, Coupling};
 use crate::effectors::{AppliedWrench, Effector, MotorTorques};
 use crate::environment::Environment;
@@ -60,6 +61,7 @@ pub struct Scene<const J: usize> {
     /// Propellant that left (kg).
     pub(crate) propellant: f64,
     pub(crate) watched: Watched<J>,
+    pub(crate) touching: Touching,
     pub(crate) runge_kutta: RungeKutta4,
     pub(crate) dormand_prince: DormandPrince,
     /// Places for the right-hand side; they are away while it is worked out.
@@ -90,6 +92,7 @@ impl<const J: usize> Scene<J> {
             booked_carry: vec![0.0; Bookings::NUMBERS],
             propellant: 0.0,
             watched: Watched::default(),
+            touching: Touching::default(),
             runge_kutta: RungeKutta4::default(),
             dormand_prince: DormandPrince::default(),
             places: Cell::new(None),
@@ -127,7 +130,10 @@ impl<const J: usize> Scene<J> {
         F: (SystemId, Frame<f64>),
         by: Box<dyn Coupling>,
     ) -> CouplingId {
-        self.couplings.push(Some(Coupled { E, F, by }));
+        let variables = by.variables();
+        let (row, carry) = (vec![0.0; variables], vec![0.0; variables]);
+        self.couplings.push(Some(Coupled { E, F, by, row, carry }));
+        self.make_room();
         CouplingId(self.couplings.len() - 1)
     }
     /// Take a coupling away.
@@ -135,6 +141,7 @@ impl<const J: usize> Scene<J> {
         if let Some(coupled) = self.couplings.get_mut(id.0) {
             *coupled = None;
         }
+        self.make_room();
     }
     /// What surrounds the systems from now on.
     pub fn set_environment(&mut self, environment: Environment) {
@@ -158,12 +165,14 @@ impl<const J: usize> Scene<J> {
     /// Room for rows of all systems and for the bookings.
     pub(crate) fn make_room(&mut self) {
         let of_systems = self.systems.iter().flatten().map(|s| s.variables.len());
-        let length = of_systems.sum::<usize>() + Bookings::NUMBERS;
+        let of_couplings = self.couplings.iter().flatten().map(|c| c.row.len());
+        let length = of_systems.chain(of_couplings).sum::<usize>() + Bookings::NUMBERS;
         match self.stepper {
             Stepper::Fixed { .. } => self.runge_kutta = RungeKutta4::new(length),
             Stepper::Adaptive { .. } => self.dormand_prince = DormandPrince::new(length),
         }
         self.places.set(Some(Box::new(Places::new(self.systems.len(), length))));
+        self.touching.any = self.couplings.iter().flatten().any(|c| c.by.contact().is_some());
         self.make_room_for_events();
     }
     /// All systems that are there.

@@ -28,13 +28,15 @@ pub enum Source {
     Gravity,
     /// Couplings between systems: work alone, for a wrench and its opposite cancel.
     Couplings,
+    /// Contacts between shapes: work alone, likewise.
+    Contacts,
     /// Grasps and releases: energy alone, for the momentum of both sides continues.
     Grasps,
 }
 
 impl Source {
     /// How many there are.
-    pub const COUNT: usize = 12;
+    pub const COUNT: usize = 13;
     /// All of them, in the order in which they are shown.
     pub const ALL: [Self; Self::COUNT] = [
         Self::JointDrives,
@@ -48,6 +50,7 @@ impl Source {
         Self::Applied,
         Self::Gravity,
         Self::Couplings,
+        Self::Contacts,
         Self::Grasps,
     ];
     /// Its name in tables.
@@ -64,6 +67,7 @@ impl Source {
             Self::Applied => "applied wrenches",
             Self::Gravity => "gravity",
             Self::Couplings => "couplings",
+            Self::Contacts => "contacts",
             Self::Grasps => "grasps",
         }
     }

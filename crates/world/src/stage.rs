@@ -22,8 +22,10 @@ use wrasse_spatial::{Quat, SpatialForce, Vec3, rotation_vector_rate};
 pub(crate) struct Places<const J: usize> {
     systems: Vec<SystemPlaces<J>>,
     /// A row without a displacement, and one for the rates there.
-    zeros: Vec<f64>,
+    pub(crate) zeros: Vec<f64>,
     rates: Vec<f64>,
+    /// Variables of a coupling at the stage.
+    own: Vec<f64>,
 }
 
 /// Those of one system.
@@ -68,6 +70,7 @@ impl<const J: usize> Places<J> {
             systems: (0..systems).map(|_| SystemPlaces::default()).collect(),
             zeros: vec![0.0; length],
             rates: vec![0.0; length],
+            own: Vec::with_capacity(length),
         }
     }
     pub(crate) fn of(&mut self, system: usize) -> &mut SystemPlaces<J> {
@@ -95,10 +98,18 @@ impl<const J: usize> Scene<J> {
             system.stand(&d[at..at + length], t, places.of(i));
             at += length;
         }
-        let (mut of_systems, booked) = rates.split_at_mut(at);
+        let (mut of_systems, rest) = rates.split_at_mut(at);
+        let of_couplings = self.couplings.iter().flatten().map(|c| c.row.len()).sum();
+        let (mut of_couplings, booked) = rest.split_at_mut(of_couplings);
         booked.fill(0.0);
         for coupled in self.couplings.iter().flatten() {
-            self.push_apart(places, coupled, booked);
+            let length = coupled.row.len();
+            let (own, rest) = of_couplings.split_at_mut(length);
+            own.fill(0.0);
+            if !coupled.by.is_idle() {
+                self.push_apart(places, coupled, (&d[at..at + length], own), booked);
+            }
+            (of_couplings, at) = (rest, at + length);
         }
         at = 0;
         for (i, system) in self.systems.iter().enumerate() {
@@ -114,19 +125,27 @@ impl<const J: usize> Scene<J> {
 
     /// The wrench of a coupling and its opposite: the same six numbers about the origin of N, added to
     /// one and taken from the other.
-    fn push_apart(&self, places: &mut Places<J>, coupled: &Coupled, booked: &mut [f64]) {
+    fn push_apart(
+        &self,
+        places: &mut Places<J>,
+        coupled: &Coupled,
+        (d, rates): (&[f64], &mut [f64]),
+        booked: &mut [f64],
+    ) {
         let [E, F] =
             [coupled.E, coupled.F].map(|(id, frame)| self.frame_motion(places, id, &frame));
-        let on_F = coupled.by.wrench(&E, &F);
+        places.own.clear();
+        places.own.extend(coupled.row.iter().zip(d).map(|(x, d)| x + d));
+        let on_F = coupled.by.act(&E, &F, &places.own, rates);
         let about_origin = on_F.about(-F.X_NF.translation);
         let at_E = on_F.about(E.X_NF.translation - F.X_NF.translation);
         let power = F.V_NF_N.power(&on_F) - E.V_NF_N.power(&at_E);
-        Bookings::book(booked, Source::Couplings, &Booking::of_work(power));
+        Bookings::book(booked, coupled.by.source(), &Booking::of_work(power));
         self.push(places, coupled.F, &about_origin);
         self.push(places, coupled.E, &-about_origin);
     }
 
-    fn frame_motion(
+    pub(crate) fn frame_motion(
         &self,
         places: &mut Places<J>,
         id: SystemId,
@@ -178,7 +197,7 @@ impl<const J: usize> SystemPlaces<J> {
 
 impl<const J: usize> System<J> {
     /// Where the system is at displacement `d`, `t` (s) into the current set-points.
-    fn stand(&self, d: &[f64], t: f64, at: &mut SystemPlaces<J>) {
+    pub(crate) fn stand(&self, d: &[f64], t: f64, at: &mut SystemPlaces<J>) {
         at.row.clear();
         at.row.extend(self.row.iter().zip(d).map(|(x, d)| x + d));
         at.quat_NB = self.quat_NB * Quat::exp(vector(d, 0));

@@ -79,6 +79,17 @@ impl FrictionForce {
             }
         }
     }
+    /// Squared frequency of the bristle and rate of what damps it (1/s², 1/s), where an impulse along the
+    /// surface gives `mobility` (1/kg).
+    pub(crate) fn pace(&self, mobility: f64) -> (f64, f64) {
+        match *self {
+            Self::None | Self::Tanh { .. } => (0.0, 0.0),
+            Self::ElastoPlastic { stiffness, damping, .. }
+            | Self::LuGre { stiffness, damping, .. } => {
+                (stiffness * mobility, stiffness / damping.max(f64::MIN_POSITIVE))
+            }
+        }
+    }
     /// Whether there is a bristle.
     pub(crate) fn has_bristle(&self) -> bool {
         matches!(self, Self::ElastoPlastic { .. } | Self::LuGre { .. })

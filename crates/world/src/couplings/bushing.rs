@@ -51,17 +51,34 @@ impl Deflection {
     }
 }
 
-impl Coupling for Bushing {
-    fn wrench(&self, E: &FrameMotion, F: &FrameMotion) -> SpatialForce<f64> {
+impl Bushing {
+    /// The wrench on F at its origin, inertial axes (N·m, N).
+    pub fn wrench(&self, E: &FrameMotion, F: &FrameMotion) -> SpatialForce<f64> {
         let Deflection { p, pdot, phi, w } = Deflection::of(E, F);
         let force = -(each(self.stiffness, p) + each(self.damping, pdot));
         let spring = inverse_left_jacobian(phi).transpose_mul(each(self.turning_stiffness, phi));
         let torque = -(spring + each(self.turning_damping, w));
         SpatialForce::new(E.X_NF.rotation * torque, E.X_NF.rotation * force)
     }
-    fn stored_energy(&self, E: &FrameMotion, F: &FrameMotion) -> f64 {
+    /// Energy that it stores (J).
+    pub fn energy(&self, E: &FrameMotion, F: &FrameMotion) -> f64 {
         let Deflection { p, phi, .. } = Deflection::of(E, F);
         0.5 * (p.dot(each(self.stiffness, p)) + phi.dot(each(self.turning_stiffness, phi)))
+    }
+}
+
+impl Coupling for Bushing {
+    fn act(
+        &self,
+        E: &FrameMotion,
+        F: &FrameMotion,
+        _: &[f64],
+        _: &mut [f64],
+    ) -> SpatialForce<f64> {
+        self.wrench(E, F)
+    }
+    fn stored_energy(&self, E: &FrameMotion, F: &FrameMotion, _: &[f64]) -> f64 {
+        self.energy(E, F)
     }
 }
 
@@ -119,7 +136,7 @@ mod tests {
             motion(Pose::new(R, X.translation + v * t), w, v)
         };
         let at = |t: f64| (moved(at_E, w_E, v_E, t), moved(at_F, w_F, v_F, t));
-        let energy = |t: f64| BUSHING.stored_energy(&at(t).0, &at(t).1);
+        let energy = |t: f64| BUSHING.energy(&at(t).0, &at(t).1);
         let (E, F) = at(0.0);
         let on_F = BUSHING.wrench(&E, &F);
         let on_E = on_F.about(at_E.translation - at_F.translation);

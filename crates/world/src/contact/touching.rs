@@ -1,0 +1,371 @@
+//! When contacts begin and cease: looking at gaps, locating the instant, and what changes then.
+
+use super::account::ContactEvent;
+use super::coupling::Contact;
+use super::law::FrictionLaw;
+use crate::advance::NonFinite;
+use crate::couplings::FrameMotion;
+use crate::scene::{CouplingId, Scene, SystemId};
+use wrasse_dynamics::Frame;
+use wrasse_spatial::{Mat3, Vec3};
+
+/// How finely contacts are integrated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ContactAccuracy {
+    /// Restitution to 1e-6, forces to 1e-5.
+    #[default]
+    Everyday,
+    /// Shorter steps, graded near touch and parting.
+    Fine,
+}
+
+impl ContactAccuracy {
+    /// Steps per radian of the fastest contact's oscillation.
+    pub(crate) fn share_of_radian(self) -> f64 {
+        match self {
+            Self::Everyday => 0.1,
+            Self::Fine => 0.0125,
+        }
+    }
+    /// How long a step may be beside the time since touch or until parting, and how short at most beside one
+    /// in the midst of contact (–).
+    pub(crate) fn grading(self) -> (f64, f64) {
+        match self {
+            Self::Everyday => (0.5, 0.02),
+            Self::Fine => (0.25, 1e-4),
+        }
+    }
+}
+
+/// What becomes of contacts in a scene.
+#[derive(Debug, Default)]
+pub(crate) struct Touching {
+    pub(crate) accuracy: ContactAccuracy,
+    pub(crate) events: Vec<ContactEvent>,
+    /// Whether any coupling is a contact.
+    pub(crate) any: bool,
+    /// Longest step while anything touches (s): none where nothing does.
+    pub(crate) longest: Option<f64>,
+    /// When the last touch began (s).
+    pub(crate) since: f64,
+}
+
+/// An instant is located to this share of a step.
+const INSTANT: f64 = 1e-9;
+
+impl<const J: usize> Scene<J> {
+    pub(crate) fn has_contacts(&self) -> bool {
+        self.touching.any
+    }
+    /// How finely contacts are integrated from now on.
+    pub fn set_contact_accuracy(&mut self, accuracy: ContactAccuracy) {
+        self.touching.accuracy = accuracy;
+    }
+    /// A contact.
+    pub fn contact(&self, id: CouplingId) -> Option<&Contact> {
+        self.couplings.get(id.0)?.as_ref()?.by.contact()
+    }
+    /// Energy of a contact (J).
+    pub fn contact_energy(&self, id: CouplingId) -> Option<super::ContactEnergy> {
+        let coupled = self.couplings.get(id.0)?.as_ref()?;
+        let contact = coupled.by.contact()?;
+        let [E, F] = [coupled.E, coupled.F].map(|(id, frame)| self.motion_of(id, &frame));
+        Some(contact.energy(&E, &F, &coupled.row))
+    }
+    /// Touches and partings since they were last asked for, in order.
+    pub fn take_contact_events(&mut self) -> Vec<ContactEvent> {
+        std::mem::take(&mut self.touching.events)
+    }
+    /// The longest step that contacts allow now (s), where anything touches.
+    pub fn contact_step(&self) -> Option<f64> {
+        self.touching.longest
+    }
+    /// How a frame stands and moves now.
+    fn motion_of(&self, id: SystemId, frame: &Frame<f64>) -> FrameMotion {
+        self.with_kinematics(id, |k| FrameMotion { X_NF: k.pose(frame), V_NF_N: k.velocity(frame) })
+    }
+
+    /// Depths and rates of all contacts, `t` (s) into the set-points.
+    pub(crate) fn look_at_contacts(&mut self, t: f64) {
+        let mut places = self.places.take().unwrap_or_default();
+        let mut couplings = std::mem::take(&mut self.couplings);
+        let zeros = std::mem::take(&mut places.zeros);
+        for (i, system) in self.systems.iter().enumerate() {
+            if let Some(system) = system {
+                system.stand(&zeros[..system.variables.len()], t, places.of(i));
+            }
+        }
+        places.zeros = zeros;
+        for coupled in couplings.iter_mut().flatten() {
+            let (E, F) = (coupled.E, coupled.F);
+            let Some(contact) = coupled.by.contact_mut() else { continue };
+            let [E, F] = [E, F].map(|(id, frame)| self.frame_motion(&mut places, id, &frame));
+            contact.look(&E, &F);
+        }
+        self.couplings = couplings;
+        self.places.set(Some(places));
+    }
+
+    /// Whether a place has passed its touch or parting, as last looked at.
+    pub(crate) fn contacts_passed(&self) -> bool {
+        self.passed() > 0.0
+    }
+
+    fn contacts(&self) -> impl Iterator<Item = &Contact> {
+        self.couplings.iter().flatten().filter_map(|coupled| coupled.by.contact())
+    }
+    fn contacts_mut(&mut self) -> impl Iterator<Item = &mut Contact> {
+        self.couplings.iter_mut().flatten().filter_map(|coupled| coupled.by.contact_mut())
+    }
+
+    /// Keep what is seen now as what was seen before the coming step.
+    pub(crate) fn keep_contacts(&mut self) {
+        self.contacts_mut().for_each(|contact| contact.before.clone_from(&contact.now));
+    }
+
+    /// How far beyond its touch or its parting the farthest place is, as last looked at (m): above zero
+    /// where one has passed it.
+    fn passed(&self) -> f64 {
+        let each = self.contacts().flat_map(|contact| contact.places.iter().zip(&contact.now));
+        each.fold(f64::NEG_INFINITY, |most, (place, seen)| {
+            most.max(if place.touches { -seen.depth } else { seen.depth })
+        })
+    }
+
+    /// After a step of `h` (s) from `t0` that was accepted and looked at: go back to the first touch or
+    /// parting in it, if there is any. How long the step has become is returned, and whether anything
+    /// changes at its end.
+    pub(crate) fn stop_at_contacts(
+        &mut self,
+        (t0, h): (f64, f64),
+        step: &dyn Fn(&mut Self, f64, f64) -> Result<(), NonFinite>,
+    ) -> Result<(f64, bool), NonFinite> {
+        let (mut low, mut high) = (0.0, h);
+        let mut above = self.passed();
+        if above <= 0.0 {
+            let Some(dip) = self.dip(h) else { return Ok((h, false)) };
+            self.step_and_look(t0, dip, step)?;
+            above = self.passed();
+            high = dip;
+            if above <= 0.0 {
+                self.step_and_look(t0, h, step)?;
+                return Ok((h, false));
+            }
+        }
+        let mut guess = self.first_crossing(high);
+        let mut below: Option<f64> = None;
+        for turn in 0..100 {
+            if high - low <= INSTANT * h {
+                break;
+            }
+            let inside = guess.clamp(low + 0.01 * (high - low), high - 1e-3 * (high - low));
+            self.step_and_look(t0, inside, step)?;
+            let found = self.passed();
+            if found > 0.0 {
+                (high, above) = (inside, found);
+            } else {
+                (low, below) = (inside, Some(found));
+            }
+            // By the chord, with its point a little beyond the crossing; every third time by halves.
+            guess = match below {
+                Some(below) if turn % 3 != 2 && above > below => {
+                    let chord = low - below * (high - low) / (above - below);
+                    chord + (0.05 * (high - low)).min(INSTANT * h)
+                }
+                _ => 0.5 * (low + high),
+            };
+        }
+        self.step_and_look(t0, high, step)?;
+        Ok((high, true))
+    }
+
+    fn step_and_look(
+        &mut self,
+        t0: f64,
+        h: f64,
+        step: &dyn Fn(&mut Self, f64, f64) -> Result<(), NonFinite>,
+    ) -> Result<(), NonFinite> {
+        self.return_to_start_of_step();
+        step(self, t0, h)?;
+        self.look_at_contacts(t0 + h);
+        Ok(())
+    }
+
+    /// When in a step of `h` (s) a place that is apart at both ends of it may have touched (s): at the top of
+    /// the cubic through depths and rates.
+    fn dip(&self, h: f64) -> Option<f64> {
+        let mut first: Option<f64> = None;
+        for contact in self.contacts() {
+            let ends = contact.places.iter().zip(contact.before.iter().zip(&contact.now));
+            for (_, (from, to)) in ends.filter(|(place, _)| !place.touches) {
+                if from.rate > 0.0 && to.rate < 0.0 && from.depth < 0.0 && to.depth < 0.0 {
+                    let (at, top) = top_of_cubic((from.depth, from.rate), (to.depth, to.rate), h);
+                    let near = 0.1 * (from.rate - to.rate) * h;
+                    if top > -near && first.is_none_or(|t| at < t) {
+                        first = Some(at);
+                    }
+                }
+            }
+        }
+        first
+    }
+
+    /// A first guess at the first crossing, by the rates at both ends (s into the step).
+    fn first_crossing(&self, high: f64) -> f64 {
+        let mut first = high;
+        for contact in self.contacts() {
+            for (place, (from, to)) in
+                contact.places.iter().zip(contact.before.iter().zip(&contact.now))
+            {
+                let sign = if place.touches { -1.0 } else { 1.0 };
+                let (beyond, rate) = (sign * to.depth, sign * to.rate);
+                if beyond > 0.0 && rate > 0.0 && sign * from.depth <= 0.0 {
+                    first = first.min((high - beyond / rate).max(0.0));
+                }
+            }
+        }
+        first
+    }
+
+    /// Places that have passed their touch or parting begin or cease to touch, at `t` (s into the
+    /// set-points).
+    pub(crate) fn switch_contacts(&mut self, t: f64) {
+        let time = self.clock.period_start + t;
+        let mut touched = false;
+        for number in 0..self.couplings.len() {
+            let Some(coupled) = self.couplings[number].as_mut() else { continue };
+            let Some(contact) = coupled.by.contact_mut() else { continue };
+            let (was, speed) = (contact.touching, contact.fastest());
+            for i in 0..contact.places.len() {
+                let depth = contact.now[i].depth;
+                if contact.places[i].touches && depth < 0.0 {
+                    contact.let_go(i, &mut coupled.row);
+                } else if !contact.places[i].touches && depth > 0.0 {
+                    contact.places[i].touches = true;
+                    touched = true;
+                }
+            }
+            contact.touching = contact.places.iter().filter(|place| place.touches).count();
+            let touches = contact.touching > 0;
+            if touches == (was > 0) {
+                continue;
+            }
+            contact.record.changed(touches, time, speed);
+            contact.samples.clear();
+            self.touching.events.push(ContactEvent { time, coupling: number, touches, speed });
+        }
+        if touched {
+            self.touching.since = time;
+        }
+        self.pace_contacts(t);
+    }
+
+    /// Effective masses at all places that touch, and the longest step that they allow.
+    pub(crate) fn pace_contacts(&mut self, t: f64) {
+        let _ = t;
+        let mut sum = (0.0, 0.0);
+        for number in 0..self.couplings.len() {
+            let touching = self.couplings[number].as_ref().and_then(|c| c.by.contact());
+            if touching.is_none_or(|contact| contact.touching == 0) {
+                continue;
+            }
+            let found = self.mobilities(number);
+            let Some(coupled) = self.couplings[number].as_mut() else { continue };
+            let Some(contact) = coupled.by.contact_mut() else { continue };
+            for (i, normal, W) in found {
+                contact.pace(i, normal, &W);
+            }
+            let paces = contact.places.iter().filter(|p| p.touches).map(|p| p.pace);
+            sum = paces.fold(sum, |sum, pace| (sum.0 + pace.0, sum.1 + pace.1));
+        }
+        let fastest = sum.0.sqrt() + sum.1;
+        let share = self.touching.accuracy.share_of_radian();
+        self.touching.longest = (fastest > 0.0).then(|| share / fastest);
+    }
+
+    /// Of the places of a contact that touch: number, normal, and the inverse effective mass (1/kg) at their
+    /// point.
+    fn mobilities(&self, number: usize) -> Vec<(usize, Vec3<f64>, Mat3<f64>)> {
+        let Some(coupled) = &self.couplings[number] else { return vec![] };
+        let Some(contact) = coupled.by.contact() else { return vec![] };
+        let [E, F] = [coupled.E, coupled.F].map(|(id, frame)| self.motion_of(id, &frame));
+        let points = contact.with_meetings(&E, &F, |all| {
+            let touching = contact.places.iter().zip(all).enumerate();
+            let touching = touching.filter(|(_, (place, _))| place.touches);
+            touching.map(|(i, (_, m))| (i, m.normal, contact.point(m))).collect::<Vec<_>>()
+        });
+        let each = points.into_iter().map(|(i, normal, x)| {
+            let sides = [coupled.E, coupled.F];
+            let W = sides.map(|(id, frame)| self.mobility(id, frame.body, x));
+            (i, normal, W[0] + W[1])
+        });
+        each.collect()
+    }
+}
+
+impl super::account::ContactRecord {
+    fn changed(&mut self, touches: bool, time: f64, speed: f64) {
+        if touches {
+            if self.touches == 0 {
+                (self.first_time, self.first_speed) = (time, speed);
+            }
+            self.touches += 1;
+            self.last_time = time;
+        } else {
+            self.duration += time - self.last_time;
+            self.last_time = time;
+        }
+    }
+}
+
+impl Contact {
+    /// Fastest approach of its places that are about to touch or part (m/s).
+    fn fastest(&self) -> f64 {
+        let passed = self.places.iter().zip(&self.now).filter(|(place, seen)| {
+            if place.touches { seen.depth < 0.0 } else { seen.depth > 0.0 }
+        });
+        passed.fold(0.0, |most: f64, (_, seen)| {
+            if seen.rate.abs() > most.abs() { seen.rate } else { most }
+        })
+    }
+
+    /// How fast a place is: of its spring and its damper with the effective mass there.
+    fn pace(&mut self, i: usize, normal: Vec3<f64>, W: &Mat3<f64>) {
+        let seen = self.now[i];
+        let along = normal.dot(*W * normal);
+        // The most mobile direction along the surface: no more than what is left of the trace.
+        let across = (0..3).map(|k| W.rows[k].to_array()[k]).sum::<f64>() - along;
+        let law = self.law.normal;
+        let mass = 1.0 / (along * seen.share);
+        let begins = self.places[i].pace == (0.0, 0.0);
+        let depth = seen.depth.max(law.deepest(mass, seen.rate.max(0.0)));
+        let tangent = seen.share * law.tangent(depth);
+        let damper = law.damping * seen.share * law.spring(depth) * along;
+        let place = &mut self.places[i];
+        place.mobility = along;
+        if begins {
+            place.friction = self.law.friction.at_place(seen.share, 1.0 / across);
+        }
+        let (bristle, creep) = place.friction.pace(across);
+        place.pace = (tangent * along + bristle, damper + creep);
+        if self.law.friction == FrictionLaw::None {
+            place.pace.0 = tangent * along;
+        }
+    }
+}
+
+/// Time and value of the top of the cubic through depths and rates at both ends of a step.
+fn top_of_cubic((d0, v0): (f64, f64), (d1, v1): (f64, f64), h: f64) -> (f64, f64) {
+    let (a, b) = (d1 - d0 - v0 * h, (v1 - v0) * h);
+    // d = d0 + v0 h s + (3a - b) s² + (b - 2a) s³ with s from 0 to 1.
+    let (c2, c3) = (3.0 * a - b, b - 2.0 * a);
+    let value = |s: f64| d0 + s * (v0 * h + s * (c2 + s * c3));
+    let rate = |s: f64| v0 * h + s * (2.0 * c2 + 3.0 * s * c3);
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        if rate(middle) > 0.0 { low = middle } else { high = middle }
+    }
+    let s = 0.5 * (low + high);
+    (s * h, value(s))
+}
