@@ -143,3 +143,7 @@ pub enum Mindlin1949 {}
 /// K. Johnson, *Contact Mechanics*, Cambridge University Press, 1985.
 #[derive(Debug)]
 pub enum Johnson1985 {}
+/// Z. Farkas, G. Bartels, T. Unger, D. Wolf, *Frictional coupling between sliding and spinning motion*,
+/// Physical Review Letters 90, 248302, 2003.
+#[derive(Debug)]
+pub enum Farkas2003 {}

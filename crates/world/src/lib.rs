@@ -33,7 +33,7 @@ pub use command::Saturation;
 pub use contact::{
     Bristle, BristleDamping, Contact, ContactAccuracy, ContactEnergy, ContactEvent, ContactLaw,
     ContactRecord, Curvature, FrictionForce, FrictionLaw, LEAST_RESTITUTION, NormalForce,
-    PairRefused, damping_number, law_of_pair, restitution_at,
+    PairRefused, damping_number, law_of_pair, restitution_at, uniform_disc_friction,
 };
 pub use couplings::{Bushing, Coupling, FrameMotion};
 pub use effectors::{

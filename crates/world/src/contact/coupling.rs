@@ -36,6 +36,8 @@ pub(crate) struct Seen {
     pub(crate) depth: f64,
     /// (m/s)
     pub(crate) rate: f64,
+    /// How fast the surfaces slide (m/s).
+    pub(crate) slip: f64,
     /// Of the pair's stiffness (–).
     pub(crate) share: f64,
 }
@@ -129,8 +131,10 @@ impl Contact {
         self.with_meetings(E, F, |all| {
             for (seen, m) in now.iter_mut().zip(all) {
                 let x = self.point(m);
-                let rate = -m.normal.dot(velocity_at(E, x) - velocity_at(F, x));
-                *seen = Seen { depth: m.depth, rate, share: m.share };
+                let v_rel = velocity_at(E, x) - velocity_at(F, x);
+                let rate = -m.normal.dot(v_rel);
+                let slip = (v_rel + m.normal * rate).norm();
+                *seen = Seen { depth: m.depth, rate, slip, share: m.share };
             }
         });
         self.now = now;

@@ -80,13 +80,17 @@ impl FrictionForce {
         }
     }
     /// Squared frequency of the bristle and rate of what damps it (1/s², 1/s), where an impulse along the
-    /// surface gives `mobility` (1/kg).
-    pub(crate) fn pace(&self, mobility: f64) -> (f64, f64) {
+    /// surface gives `mobility` (1/kg), under a normal force (N) and at a sliding speed (m/s).
+    pub(crate) fn pace(&self, mobility: f64, normal: f64, slip: f64) -> (f64, f64) {
         match *self {
-            Self::None | Self::Tanh { .. } => (0.0, 0.0),
-            Self::ElastoPlastic { stiffness, damping, .. }
-            | Self::LuGre { stiffness, damping, .. } => {
-                (stiffness * mobility, stiffness / damping.max(f64::MIN_POSITIVE))
+            Self::None => (0.0, 0.0),
+            Self::Tanh { mu, speed } => (0.0, mu * normal * mobility / speed),
+            Self::ElastoPlastic { stiffness, damping, .. } => {
+                (stiffness * mobility, stiffness / damping)
+            }
+            Self::LuGre { mu, stiffness, damping } => {
+                let leak = if normal > 0.0 { stiffness * slip / (mu * normal) } else { 0.0 };
+                (stiffness * mobility, leak + damping * mobility)
             }
         }
     }

@@ -12,6 +12,7 @@ mod peak;
 mod restitution;
 mod stepping;
 mod touching;
+mod uniform_disc;
 
 pub use account::{ContactEnergy, ContactEvent, ContactRecord};
 pub use coupling::Contact;
@@ -22,3 +23,4 @@ pub use pair::{Curvature, PairRefused, law_of_pair};
 pub use restitution::{LEAST_RESTITUTION, damping_number, restitution_at};
 pub use touching::ContactAccuracy;
 pub(crate) use touching::Touching;
+pub use uniform_disc::uniform_disc_friction;

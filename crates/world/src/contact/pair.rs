@@ -57,9 +57,12 @@ pub fn law_of_pair(
     if n != m {
         return Err(PairRefused::Exponents(n, m));
     }
-    // f = k dⁿ: d = (f/k)^(1/n) on each side.
-    let (give_A, give_B) = (power(kA, -1.0 / n), power(kB, -1.0 / n));
-    let stiffness = power(give_A + give_B, -n);
+    // f = k dⁿ: d = (f/k)^(1/n) on each side. Between two elastic bodies the area is one and the same, and
+    // what each gives way goes as 1/E.
+    let as_one = matches!(curvature, Curvature::Radius(_)) && both_elastic(A, B);
+    let order = if as_one { 1.0 } else { n };
+    let (give_A, give_B) = (power(kA, -1.0 / order), power(kB, -1.0 / order));
+    let stiffness = power(give_A + give_B, -order);
     let given_by_A = give_A / (give_A + give_B);
     let damping = |s: &Surface<f64>| damping_number(s.restitution) / s.restitution_speed;
     let damping = given_by_A * damping(A) + (1.0 - given_by_A) * damping(B);
@@ -90,6 +93,10 @@ fn spring(surface: &Surface<f64>, curvature: Curvature) -> (f64, f64) {
             (youngs_modulus * area / thickness, 1.0)
         }
     }
+}
+
+fn both_elastic(A: &Surface<f64>, B: &Surface<f64>) -> bool {
+    [A, B].iter().all(|surface| matches!(surface.hardness, Hardness::Elastic { .. }))
 }
 
 fn mu(friction: &Friction<f64>) -> f64 {

@@ -30,7 +30,7 @@ pub fn damping_number(restitution: f64) -> f64 {
     if e >= 1.0 {
         return 0.0;
     }
-    // The excess grows from zero, has its largest value where 1 + D = 1/e … and falls to -∞ at 1/e.
+    // The excess grows from zero up to where its slope vanishes, and falls to -∞ at 1/e.
     let excess = |D: f64| g(D) - g(-e * D);
     let (mut low, mut high) = ((1.0 - e) / (e * (1.0 + e)), 1.0 / e);
     for _ in 0..200 {
@@ -89,7 +89,8 @@ mod tests {
             let D = damping_number(e);
             assert!((restitution_at(D) - e).abs() < 1e-12, "{e} {D} {}", restitution_at(D));
             let law = (1.0 + D).ln() - (1.0 - e * D).ln() - D * (1.0 + e);
-            assert!(law.abs() < 1e-12 * (1.0 + D), "{e}: {law:e}");
+            // At 0.05 the last bits of D are 1e-8 of 1 - e D.
+            assert!(law.abs() < 1e-12 + 1e-15 / (1.0 - e * D), "{e}: {law:e}");
         }
         assert_eq!((damping_number(1.0), restitution_at(0.0)), (0.0, 1.0));
     }

@@ -2,7 +2,6 @@
 
 use super::account::ContactEvent;
 use super::coupling::Contact;
-use super::law::FrictionLaw;
 use crate::advance::NonFinite;
 use crate::couplings::FrameMotion;
 use crate::scene::{CouplingId, Scene, SystemId};
@@ -346,11 +345,9 @@ impl Contact {
         if begins {
             place.friction = self.law.friction.at_place(seen.share, 1.0 / across);
         }
-        let (bristle, creep) = place.friction.pace(across);
+        let normal = seen.force(&self.law).max(seen.share * law.spring(depth));
+        let (bristle, creep) = place.friction.pace(across, normal, seen.slip);
         place.pace = (tangent * along + bristle, damper + creep);
-        if self.law.friction == FrictionLaw::None {
-            place.pace.0 = tangent * along;
-        }
     }
 }
 
