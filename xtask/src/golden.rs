@@ -6,10 +6,12 @@ mod contract;
 mod derivatives;
 mod file;
 mod kind;
+mod normal_contact;
 mod paper_equations;
 mod product;
 mod state;
 mod table;
+mod touching_bodies;
 mod two_bodies;
 
 use crate::tidy::repository_root;

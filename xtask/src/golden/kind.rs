@@ -5,6 +5,7 @@ use super::comparison::{Found, Tolerances};
 use super::contract::Contract;
 use super::derivatives::Derivatives;
 use super::file::{Case, Complaint};
+use super::normal_contact::NormalContact;
 use super::paper_equations::PaperEquations;
 use super::two_bodies::TwoBodies;
 
@@ -23,7 +24,8 @@ pub(super) trait Kind {
 }
 
 /// All that are built.
-const KINDS: [&dyn Kind; 5] = [&Contract, &PaperEquations, &Derivatives, &Capture, &TwoBodies];
+const KINDS: [&dyn Kind; 6] =
+    [&Contract, &PaperEquations, &Derivatives, &Capture, &TwoBodies, &NormalContact];
 
 /// The kind of this name, if it is built.
 pub(super) fn named(kind: &str) -> Option<&'static dyn Kind> {

@@ -11,7 +11,7 @@ use wrasse_hardware::{ActuatorCommand, SetPointMotion};
 use wrasse_spatial::{Quat, Sym3, Vec3};
 use wrasse_vehicle::{JOINTS, Vehicle};
 use wrasse_world::{
-    BaseAttitude, Bushing, Coupling, Drive, Equipment, FrameMotion, FreeBody, Scene, Source,
+    BaseAttitude, Bushing, Drive, Equipment, FrameMotion, FreeBody, Scene, Source,
     Stepper, SystemId, SystemSetup,
 };
 
@@ -136,7 +136,7 @@ impl<'a> Pair<'a> {
 
     fn stored_energy(&self) -> f64 {
         let [E, F] = self.frames();
-        self.bushing.stored_energy(&E, &F)
+        self.bushing.energy(&E, &F)
     }
 
     /// All that the file asks at a time. One that is missing, lies in the past, or ends in a breakdown

@@ -36,6 +36,8 @@ pub(crate) struct Seen {
     pub(crate) depth: f64,
     /// (m/s)
     pub(crate) rate: f64,
+    /// How far rounding may put the depth off (m): the last bits of the positions.
+    pub(crate) rounding: f64,
     /// How fast the surfaces slide (m/s).
     pub(crate) slip: f64,
     /// Of the pair's stiffness (–).
@@ -43,6 +45,13 @@ pub(crate) struct Seen {
 }
 
 impl Seen {
+    /// How far beyond its touch or its parting a place is (m): above zero where it has passed it. Within the
+    /// rounding of a depth the rate says which it is, so that no place touches and parts in turns.
+    pub(crate) fn beyond(&self, touches: bool) -> f64 {
+        let sign = if touches { -1.0 } else { 1.0 };
+        let (beyond, rate) = (sign * self.depth, sign * self.rate);
+        if rate > 0.0 { beyond } else { beyond - self.rounding }
+    }
     /// Normal force (N).
     pub(crate) fn force(&self, law: &ContactLaw) -> f64 {
         self.share * law.normal.force(self.depth, self.rate)
@@ -134,7 +143,8 @@ impl Contact {
                 let v_rel = velocity_at(E, x) - velocity_at(F, x);
                 let rate = -m.normal.dot(v_rel);
                 let slip = (v_rel + m.normal * rate).norm();
-                *seen = Seen { depth: m.depth, rate, slip, share: m.share };
+                let rounding = 8.0 * f64::EPSILON * (x.norm() + m.depth.abs());
+                *seen = Seen { depth: m.depth, rate, rounding, slip, share: m.share };
             }
         });
         self.now = now;

@@ -10,7 +10,10 @@ use wrasse_spatial::{Mat3, SpatialForce, SpatialVelocity, Vec3, vec3};
 impl<const J: usize> Scene<J> {
     /// Velocity of a point of a body (inertial axes) per impulse there (1/kg): `J M⁻¹ Jᵀ`. Prescribed joints
     /// and a held attitude do not give way.
-    pub(crate) fn mobility(&self, id: SystemId, body: BodyId, x: Vec3<f64>) -> Mat3<f64> {
+    ///
+    /// # Panics
+    /// If the system is part of another now.
+    pub fn mobility(&self, id: SystemId, body: BodyId, x: Vec3<f64>) -> Mat3<f64> {
         let (system, state) = (self.system(id), self.state(id));
         let at_rest = State { V_NB_B: SpatialVelocity::zero(), v: [0.0; J], ..state };
         let k = kinematics(&system.robot, &at_rest);

@@ -31,7 +31,7 @@ impl ContactAccuracy {
     pub(crate) fn grading(self) -> (f64, f64) {
         match self {
             Self::Everyday => (0.5, 0.02),
-            Self::Fine => (0.25, 1e-4),
+            Self::Fine => (0.125, 1e-5),
         }
     }
 }
@@ -126,9 +126,7 @@ impl<const J: usize> Scene<J> {
     /// where one has passed it.
     fn passed(&self) -> f64 {
         let each = self.contacts().flat_map(|contact| contact.places.iter().zip(&contact.now));
-        each.fold(f64::NEG_INFINITY, |most, (place, seen)| {
-            most.max(if place.touches { -seen.depth } else { seen.depth })
-        })
+        each.fold(f64::NEG_INFINITY, |most, (place, seen)| most.max(seen.beyond(place.touches)))
     }
 
     /// After a step of `h` (s) from `t0` that was accepted and looked at: go back to the first touch or
@@ -236,10 +234,13 @@ impl<const J: usize> Scene<J> {
             let Some(contact) = coupled.by.contact_mut() else { continue };
             let (was, speed) = (contact.touching, contact.fastest());
             for i in 0..contact.places.len() {
-                let depth = contact.now[i].depth;
-                if contact.places[i].touches && depth < 0.0 {
+                let touches = contact.places[i].touches;
+                if contact.now[i].beyond(touches) <= 0.0 {
+                    continue;
+                }
+                if touches {
                     contact.let_go(i, &mut coupled.row);
-                } else if !contact.places[i].touches && depth > 0.0 {
+                } else {
                     contact.places[i].touches = true;
                     touched = true;
                 }
@@ -320,9 +321,8 @@ impl super::account::ContactRecord {
 impl Contact {
     /// Fastest approach of its places that are about to touch or part (m/s).
     fn fastest(&self) -> f64 {
-        let passed = self.places.iter().zip(&self.now).filter(|(place, seen)| {
-            if place.touches { seen.depth < 0.0 } else { seen.depth > 0.0 }
-        });
+        let each = self.places.iter().zip(&self.now);
+        let passed = each.filter(|(place, seen)| seen.beyond(place.touches) > 0.0);
         passed.fold(0.0, |most: f64, (_, seen)| {
             if seen.rate.abs() > most.abs() { seen.rate } else { most }
         })
