@@ -29,7 +29,8 @@ const TOLERANCES: Tolerances = Tolerances {
         ("rebound_speed_of_corner", Bound { relative: 1e-8, absolute: 1e-9 }),
         // A difference of twists: 1e-8 of their largest component, which is below 1.
         ("deviation_of_twist_from_impulse_theory", Bound { relative: 0.0, absolute: 1e-8 }),
-        ("stiff_limit", Bound { relative: 1e-8, absolute: 0.0 }),
+        // The file's own route keeps positions to 1e-12, which is 1e-6 of the depth at 1e12 N/m^1.5.
+        ("stiff_limit", Bound { relative: 1e-6, absolute: 0.0 }),
     ],
     arrays: &[],
 };

@@ -23,7 +23,7 @@ impl ContactAccuracy {
     pub(crate) fn share_of_radian(self) -> f64 {
         match self {
             Self::Everyday => 0.1,
-            Self::Fine => 0.0125,
+            Self::Fine => 0.00625,
         }
     }
     /// How long a step may be beside the time since touch or until parting, and how short at most beside one
