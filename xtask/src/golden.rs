@@ -5,6 +5,7 @@ mod comparison;
 mod contract;
 mod derivatives;
 mod file;
+mod friction;
 mod kind;
 mod normal_contact;
 mod paper_equations;

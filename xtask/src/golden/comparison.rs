@@ -22,7 +22,8 @@ pub(super) struct Tolerances {
     pub(super) every: Bound,
     /// Of the members of these names, and all below.
     pub(super) of: &'static [(&'static str, Bound)],
-    /// Names of objects whose numbers are one array, as `joint_rates`.
+    /// Names of objects whose numbers are one array, as `joint_rates`; and of lists of rows, of which each
+    /// column is one.
     pub(super) arrays: &'static [&'static str],
 }
 
@@ -202,7 +203,9 @@ impl Walk<'_> {
         let Some(list) = found.as_array().filter(|list| list.len() == items.len()) else {
             return self.differs(&Value::Array(items.to_vec()), found);
         };
+        let columns = if self.is_one_array() { self.columns(items, list) } else { vec![] };
         for (i, item) in items.iter().enumerate() {
+            let item = &without(item, &columns);
             let said = |other: &Value, key: &String| other.get(key).is_some();
             let same = |other: &&Value| {
                 words(item).all(|(key, word)| other.get(key).is_none_or(|found| found == word))
@@ -214,6 +217,36 @@ impl Walk<'_> {
                 None => walk.differs(item, &Value::Null),
             });
         }
+    }
+}
+
+impl Walk<'_> {
+    /// Compares the columns of a list of rows, each as one array; their names.
+    fn columns(&mut self, rows: &[Value], found: &[Value]) -> Vec<String> {
+        let column = |of: &[Value], key: &str| {
+            Value::Array(of.iter().map(|row| row.get(key).cloned().unwrap_or_default()).collect())
+        };
+        let first = rows.first().and_then(Value::as_object);
+        let keys = first.into_iter().flat_map(|row| row.keys().cloned());
+        let keys: Vec<_> = keys.filter(|key| numbers(&column(rows, key)).is_some()).collect();
+        for key in &keys {
+            let there = found.iter().any(|row| row.get(key).is_some() || row.is_null());
+            let of_found = column(found, key);
+            let expected = column(rows, key);
+            self.below(key.clone(), |walk| walk.value(&expected, there.then_some(&of_found)));
+        }
+        keys
+    }
+}
+
+/// An object without some of its members.
+fn without(value: &Value, keys: &[String]) -> Value {
+    match value {
+        Value::Object(members) => {
+            let rest = members.iter().filter(|(key, _)| !keys.contains(key));
+            Value::Object(rest.map(|(key, value)| (key.clone(), value.clone())).collect())
+        }
+        other => other.clone(),
     }
 }
 

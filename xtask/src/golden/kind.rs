@@ -5,6 +5,7 @@ use super::comparison::{Found, Tolerances};
 use super::contract::Contract;
 use super::derivatives::Derivatives;
 use super::file::{Case, Complaint};
+use super::friction::Friction;
 use super::normal_contact::NormalContact;
 use super::paper_equations::PaperEquations;
 use super::two_bodies::TwoBodies;
@@ -24,8 +25,15 @@ pub(super) trait Kind {
 }
 
 /// All that are built.
-const KINDS: [&dyn Kind; 6] =
-    [&Contract, &PaperEquations, &Derivatives, &Capture, &TwoBodies, &NormalContact];
+const KINDS: [&dyn Kind; 7] = [
+    &Contract,
+    &PaperEquations,
+    &Derivatives,
+    &Capture,
+    &TwoBodies,
+    &NormalContact,
+    &Friction,
+];
 
 /// The kind of this name, if it is built.
 pub(super) fn named(kind: &str) -> Option<&'static dyn Kind> {

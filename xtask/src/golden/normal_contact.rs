@@ -78,7 +78,7 @@ fn ball(bodies: &mut Bodies, mass: f64, x: f64, v: f64) -> SystemId {
 fn ball_on_wall(case: &Case) -> Result<Value, Complaint> {
     let normal = law(case, case.number("input.design_speed")?)?;
     let (mass, v) = (case.number("input.mass_kg")?, case.number("input.approach_speed")?);
-    let mut bodies = Bodies::new();
+    let mut bodies = Bodies::fine();
     let a = ball(&mut bodies, mass, -normal.deepest(mass, v), v);
     let point = (a, Shape::Sphere { radius: 0.0 }, Vec3::zero());
     let wall = (Vec3::zero(), vec3(-1.0, 0.0, 0.0));
@@ -105,7 +105,7 @@ fn two_spheres(case: &Case) -> Result<Value, Complaint> {
     let reduced = m[0] * m[1] / (m[0] + m[1]);
     // As far apart as they come into each other, and small: beside large numbers that would be rounded off.
     let gap = normal.deepest(reduced, v[0] - v[1]);
-    let (radius, mut bodies) = (10.0 * gap, Bodies::new());
+    let (radius, mut bodies) = (10.0 * gap, Bodies::fine());
     let start = [-2.0 * radius - gap, 0.0];
     let ids = [0, 1].map(|i| ball(&mut bodies, m[i], start[i], v[i]));
     let id = bodies.touch((ids[0], radius), (ids[1], radius), frictionless(normal));
@@ -209,7 +209,7 @@ impl CornerCase {
     }
 
     fn scene(&self, law: NormalForce) -> (Bodies, SystemId, wrasse_world::CouplingId) {
-        let mut bodies = Bodies::new();
+        let mut bodies = Bodies::fine();
         let id = bodies.scene.add_body(&self.start);
         let point = (id, Shape::Sphere { radius: 0.0 }, self.corner);
         let contact = bodies.touch_wall(point, self.wall, frictionless(law));
@@ -244,7 +244,7 @@ impl CornerCase {
 
     /// The twist after an impact in which nothing moves, by the world's effective mass.
     fn impulse_theory(&self) -> Value {
-        let (mut bodies, n) = (Bodies::new(), self.wall.1);
+        let (mut bodies, n) = (Bodies::fine(), self.wall.1);
         let id = bodies.scene.add_body(&self.start);
         let X = self.start.pose();
         let W = bodies.scene.mobility(id, BodyId::Base, X.point(self.corner));

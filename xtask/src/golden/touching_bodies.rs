@@ -17,20 +17,20 @@ const STEP: f64 = 1e-3;
 /// Longest flight (s).
 const LONGEST: f64 = 100.0;
 
-/// Bodies in a scene of their own, finely integrated.
+/// Bodies in a scene of their own.
 pub(super) struct Bodies {
     pub(super) scene: Scene<1>,
     wall: SystemId,
 }
 
 impl Bodies {
-    /// With a wall, which is nowhere yet.
-    pub(super) fn new() -> Self {
-        Self::with_stepper(Stepper::Fixed { step: STEP })
+    /// Finely integrated, with a wall, which is nowhere yet.
+    pub(super) fn fine() -> Self {
+        Self::new(Stepper::Fixed { step: STEP }, ContactAccuracy::Fine)
     }
-    pub(super) fn with_stepper(stepper: Stepper) -> Self {
+    pub(super) fn new(stepper: Stepper, accuracy: ContactAccuracy) -> Self {
         let mut scene = Scene::new(stepper);
-        scene.set_contact_accuracy(ContactAccuracy::Fine);
+        scene.set_contact_accuracy(accuracy);
         let I = Sym3::diagonal(WALL, WALL, WALL);
         let matter = MassProperties::from_central(WALL, Vec3::zero(), I);
         let body = FreeBody::new(matter, &Pose::identity(), &SpatialVelocity::zero());

@@ -278,7 +278,7 @@ fn velocity_at(frame: &FrameMotion, x: Vec3<f64>) -> Vec3<f64> {
 }
 
 /// Bristle of a place in the axes of F (m).
-fn bristle(own: &[f64], i: usize) -> Vec3<f64> {
+pub(super) fn bristle(own: &[f64], i: usize) -> Vec3<f64> {
     crate::variables::vector(own, SUMS + 3 * i)
 }
 

@@ -71,6 +71,12 @@ impl<const J: usize> Scene<J> {
         let [E, F] = [coupled.E, coupled.F].map(|(id, frame)| self.motion_of(id, &frame));
         Some(contact.energy(&E, &F, &coupled.row))
     }
+    /// The bristle of a place of a contact, in the axes of its second frame (m).
+    pub fn bristle(&self, id: CouplingId, place: usize) -> Option<Vec3<f64>> {
+        let coupled = self.couplings.get(id.0)?.as_ref()?;
+        let contact = coupled.by.contact()?;
+        (place < contact.places.len()).then(|| super::coupling::bristle(&coupled.row, place))
+    }
     /// Touches and partings since they were last asked for, in order.
     pub fn take_contact_events(&mut self) -> Vec<ContactEvent> {
         std::mem::take(&mut self.touching.events)
