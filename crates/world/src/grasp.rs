@@ -124,6 +124,12 @@ impl<const J: usize> Scene<J> {
         self.book(Source::AttitudeActuator, &Booking::of_turn(holding_N, 0.0));
         self.book(Source::Grasps, &Booking::of_work(change));
         self.systems[grasped.0] = None;
+        for side in self.couplings.iter_mut().flatten().flat_map(|c| [&mut c.E, &mut c.F]) {
+            if side.system == grasped {
+                *side = side.taken(id, held, &frame);
+            }
+        }
+        self.part_within_bodies();
         self.make_room();
         Ok((held, change))
     }
@@ -145,6 +151,11 @@ impl<const J: usize> Scene<J> {
         let (p_cm, linear, angular) = self.system(released).momentum();
         let mass = self.system(released).mass;
         self.system_mut(id).take_in(-mass, (p_cm, -linear, -angular));
+        for side in self.couplings.iter_mut().flatten().flat_map(|c| [&mut c.E, &mut c.F]) {
+            if side.held.is_some_and(|(of, _)| of == held) && side.system == id {
+                *side = side.let_go(released);
+            }
+        }
         released
     }
 }

@@ -35,7 +35,7 @@ pub use contact::{
     ContactRecord, Curvature, FrictionForce, FrictionLaw, LEAST_RESTITUTION, NormalForce,
     PairRefused, damping_number, law_of_pair, restitution_at, uniform_disc_friction,
 };
-pub use couplings::{Bushing, Coupling, FrameMotion};
+pub use couplings::{Bushing, Coupling, FrameMotion, Side};
 pub use effectors::{
     AppliedWrench, Course, Effector, Instant, Load, MotorTorques, PeriodCommand, SloshPendulum,
     SloshingTank, Stage, TankWithPropellant,

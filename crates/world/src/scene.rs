@@ -1,7 +1,7 @@
 //! The scene: systems, what couples and what surrounds them, and their motion through time.
 
 use crate::contact::Touching;
-use crate::couplings::{Coupled, Coupling};
+use crate::couplings::{Coupled, Coupling, Side};
 use crate::effectors::{AppliedWrench, Effector, MotorTorques};
 use crate::environment::Environment;
 use crate::events::Watched;
@@ -126,15 +126,22 @@ impl<const J: usize> Scene<J> {
     /// Couple frame E of a system to frame F of another, or of the same.
     pub fn couple(
         &mut self,
-        E: (SystemId, Frame<f64>),
-        F: (SystemId, Frame<f64>),
+        E: impl Into<Side>,
+        F: impl Into<Side>,
         by: Box<dyn Coupling>,
     ) -> CouplingId {
+        let (E, F) = (E.into(), F.into());
         let variables = by.variables();
         let (row, carry) = (vec![0.0; variables], vec![0.0; variables]);
         self.couplings.push(Some(Coupled { E, F, by, row, carry }));
         self.make_room();
         CouplingId(self.couplings.len() - 1)
+    }
+    /// The side of a coupling that is on a payload in a grip, at a frame of the payload.
+    pub fn side_of_held(&self, id: SystemId, held: HeldId, frame: Frame<f64>) -> Side {
+        let at = self.system(id).held.get(held.0).and_then(Option::as_ref).map(|held| held.frame);
+        let side = Side::from((id, frame));
+        at.map_or(side, |at| side.taken(id, held, &at))
     }
     /// Take a coupling away.
     pub fn uncouple(&mut self, id: CouplingId) {

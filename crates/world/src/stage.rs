@@ -1,6 +1,6 @@
 //! One stage of a step: how fast every variable of every system changes.
 
-use crate::couplings::{Coupled, FrameMotion};
+use crate::couplings::{Coupled, FrameMotion, Side};
 use crate::effectors::{Load, Stage};
 use crate::environment::Environment;
 use crate::gears::with_gears;
@@ -106,7 +106,7 @@ impl<const J: usize> Scene<J> {
             let length = coupled.row.len();
             let (own, rest) = of_couplings.split_at_mut(length);
             own.fill(0.0);
-            if !coupled.by.is_idle() {
+            if !coupled.by.is_idle() && !coupled.is_within_a_body() {
                 self.push_apart(places, coupled, (&d[at..at + length], own), booked);
             }
             (of_couplings, at) = (rest, at + length);
@@ -133,7 +133,7 @@ impl<const J: usize> Scene<J> {
         booked: &mut [f64],
     ) {
         let [E, F] =
-            [coupled.E, coupled.F].map(|(id, frame)| self.frame_motion(places, id, &frame));
+            [coupled.E, coupled.F].map(|side| self.frame_motion(places, side.system, &side.frame));
         places.own.clear();
         places.own.extend(coupled.row.iter().zip(d).map(|(x, d)| x + d));
         let on_F = coupled.by.act(&E, &F, &places.own, rates);
@@ -160,14 +160,15 @@ impl<const J: usize> Scene<J> {
     fn push(
         &self,
         places: &mut Places<J>,
-        (id, frame): (SystemId, Frame<f64>),
+        side: Side,
         F_N: &SpatialForce<f64>,
     ) {
-        let at = places.of(id.0);
-        let X_NB = at.kinematics(self.system(id)).X_NB(frame.body);
+        let at = places.of(side.system.0);
+        let body = side.frame.body;
+        let X_NB = at.kinematics(self.system(side.system)).X_NB(body);
         let at_body = F_N.about(X_NB.translation);
         let none = || Box::new(PerBody::filled(SpatialForce::zero()));
-        at.on_bodies.get_or_insert_with(none)[frame.body] += SpatialForce::new(
+        at.on_bodies.get_or_insert_with(none)[body] += SpatialForce::new(
             X_NB.rotation.transpose_mul(at_body.torque),
             X_NB.rotation.transpose_mul(at_body.force),
         );

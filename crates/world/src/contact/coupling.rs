@@ -149,6 +149,10 @@ impl Contact {
         });
         self.now = now;
     }
+    /// Both shapes are on one body now: they are as far apart as anything.
+    pub(crate) fn look_away(&mut self) {
+        self.now.fill(Seen { depth: f64::NEG_INFINITY, ..Seen::default() });
+    }
     /// Normal force of all places together, as they were last looked at (N).
     pub(crate) fn normal_force(&self) -> f64 {
         let touching = self.places.iter().zip(&self.now).filter(|(place, _)| place.touches);

@@ -120,7 +120,7 @@ impl<const J: usize> Scene<J> {
         if self.contacts_passed() {
             self.switch_contacts(t);
         } else if self.touching.longest.is_some() {
-            self.pace_contacts(t);
+            self.pace_contacts();
         }
     }
 

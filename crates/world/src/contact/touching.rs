@@ -68,7 +68,7 @@ impl<const J: usize> Scene<J> {
     pub fn contact_energy(&self, id: CouplingId) -> Option<super::ContactEnergy> {
         let coupled = self.couplings.get(id.0)?.as_ref()?;
         let contact = coupled.by.contact()?;
-        let [E, F] = [coupled.E, coupled.F].map(|(id, frame)| self.motion_of(id, &frame));
+        let [E, F] = [coupled.E, coupled.F].map(|side| self.motion_of(side.system, &side.frame));
         Some(contact.energy(&E, &F, &coupled.row))
     }
     /// The bristle of a place of a contact, in the axes of its second frame (m).
@@ -102,9 +102,14 @@ impl<const J: usize> Scene<J> {
         }
         places.zeros = zeros;
         for coupled in couplings.iter_mut().flatten() {
-            let (E, F) = (coupled.E, coupled.F);
+            let (E, F, within) = (coupled.E, coupled.F, coupled.is_within_a_body());
             let Some(contact) = coupled.by.contact_mut() else { continue };
-            let [E, F] = [E, F].map(|(id, frame)| self.frame_motion(&mut places, id, &frame));
+            if within {
+                contact.look_away();
+                continue;
+            }
+            let [E, F] =
+                [E, F].map(|side| self.frame_motion(&mut places, side.system, &side.frame));
             contact.look(&E, &F);
         }
         self.couplings = couplings;
@@ -263,12 +268,27 @@ impl<const J: usize> Scene<J> {
         if touched {
             self.touching.since = time;
         }
-        self.pace_contacts(t);
+        self.pace_contacts();
+    }
+
+    /// Contacts whose shapes are on one body since a grasp let go of all places.
+    pub(crate) fn part_within_bodies(&mut self) {
+        let time = self.time_within_period();
+        for coupled in self.couplings.iter_mut().flatten().filter(|c| c.is_within_a_body()) {
+            let Some(contact) = coupled.by.contact_mut() else { continue };
+            for i in 0..contact.places.len() {
+                if contact.places[i].touches {
+                    contact.let_go(i, &mut coupled.row);
+                }
+            }
+            if std::mem::take(&mut contact.touching) > 0 {
+                contact.record.changed(false, time, 0.0);
+            }
+        }
     }
 
     /// Effective masses at all places that touch, and the longest step that they allow.
-    pub(crate) fn pace_contacts(&mut self, t: f64) {
-        let _ = t;
+    pub(crate) fn pace_contacts(&mut self) {
         let mut sum = (0.0, 0.0);
         for number in 0..self.couplings.len() {
             let touching = self.couplings[number].as_ref().and_then(|c| c.by.contact());
@@ -294,7 +314,7 @@ impl<const J: usize> Scene<J> {
     fn mobilities(&self, number: usize) -> Vec<(usize, Vec3<f64>, Mat3<f64>)> {
         let Some(coupled) = &self.couplings[number] else { return vec![] };
         let Some(contact) = coupled.by.contact() else { return vec![] };
-        let [E, F] = [coupled.E, coupled.F].map(|(id, frame)| self.motion_of(id, &frame));
+        let [E, F] = [coupled.E, coupled.F].map(|side| self.motion_of(side.system, &side.frame));
         let points = contact.with_meetings(&E, &F, |all| {
             let touching = contact.places.iter().zip(all).enumerate();
             let touching = touching.filter(|(_, (place, _))| place.touches);
@@ -302,7 +322,7 @@ impl<const J: usize> Scene<J> {
         });
         let each = points.into_iter().map(|(i, normal, x)| {
             let sides = [coupled.E, coupled.F];
-            let W = sides.map(|(id, frame)| self.mobility(id, frame.body, x));
+            let W = sides.map(|side| self.mobility(side.system, side.frame.body, x));
             (i, normal, W[0] + W[1])
         });
         each.collect()

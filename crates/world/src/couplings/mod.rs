@@ -6,7 +6,7 @@ pub use bushing::Bushing;
 
 use crate::contact::Contact;
 use crate::integrate::add_compensated;
-use crate::scene::SystemId;
+use crate::scene::{HeldId, SystemId};
 use crate::source::Source;
 use std::fmt::Debug;
 use wrasse_dynamics::Frame;
@@ -58,11 +58,38 @@ pub trait Coupling: Debug + Send {
     }
 }
 
+/// One side of a coupling: a frame of a system, or of a payload that it holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Side {
+    pub(crate) system: SystemId,
+    pub(crate) frame: Frame<f64>,
+    /// The payload, and the frame on its body: let go, it takes the side along.
+    pub(crate) held: Option<(HeldId, Frame<f64>)>,
+}
+
+impl From<(SystemId, Frame<f64>)> for Side {
+    fn from((system, frame): (SystemId, Frame<f64>)) -> Self {
+        Self { system, frame, held: None }
+    }
+}
+
+impl Side {
+    /// The same side while a system holds the payload that it is on, whose frame is then `at`.
+    pub(crate) fn taken(self, system: SystemId, held: HeldId, at: &Frame<f64>) -> Self {
+        let X_BF = at.X_BF * self.frame.X_BF;
+        Self { system, frame: Frame { body: at.body, X_BF }, held: Some((held, self.frame)) }
+    }
+    /// The same side on a payload that is let go, and is a system of its own.
+    pub(crate) fn let_go(self, payload: SystemId) -> Self {
+        self.held.map_or(self, |(_, frame)| Self { system: payload, frame, held: None })
+    }
+}
+
 /// A coupling between frames of two systems, or of one.
 #[derive(Debug)]
 pub(crate) struct Coupled {
-    pub(crate) E: (SystemId, Frame<f64>),
-    pub(crate) F: (SystemId, Frame<f64>),
+    pub(crate) E: Side,
+    pub(crate) F: Side,
     pub(crate) by: Box<dyn Coupling>,
     /// Its variables, and what rounding took from their last sums.
     pub(crate) row: Vec<f64>,
@@ -70,6 +97,10 @@ pub(crate) struct Coupled {
 }
 
 impl Coupled {
+    /// Whether both sides are on one body: then nothing can come of it.
+    pub(crate) fn is_within_a_body(&self) -> bool {
+        self.E.system == self.F.system && self.E.frame.body == self.F.frame.body
+    }
     /// Add a displacement of its variables.
     pub(crate) fn accept(&mut self, d: &[f64]) {
         let own = self.row.iter_mut().zip(d).zip(&mut self.carry);
