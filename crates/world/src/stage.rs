@@ -157,12 +157,7 @@ impl<const J: usize> Scene<J> {
     }
 
     /// A wrench about the origin of N, inertial axes, on the body that carries a frame.
-    fn push(
-        &self,
-        places: &mut Places<J>,
-        side: Side,
-        F_N: &SpatialForce<f64>,
-    ) {
+    fn push(&self, places: &mut Places<J>, side: Side, F_N: &SpatialForce<f64>) {
         let at = places.of(side.system.0);
         let body = side.frame.body;
         let X_NB = at.kinematics(self.system(side.system)).X_NB(body);

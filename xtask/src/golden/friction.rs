@@ -12,8 +12,9 @@ use wrasse_dynamics::{MassProperties, PerBody};
 use wrasse_geometry::Shape;
 use wrasse_spatial::{Pose, SpatialForce, SpatialVelocity, Sym3, Vec3, vec3};
 use wrasse_world::{
-    AppliedWrench, Bristle, BristleDamping, ContactAccuracy, ContactLaw, CouplingId, Crossing, Event,
-    FreeBody, FrictionForce, FrictionLaw, NormalForce, Stepper, SystemId, uniform_disc_friction,
+    AppliedWrench, Bristle, BristleDamping, ContactAccuracy, ContactLaw, CouplingId, Crossing,
+    Event, FreeBody, FrictionForce, FrictionLaw, NormalForce, Stepper, SystemId,
+    uniform_disc_friction,
 };
 
 /// As the files have it.
@@ -226,7 +227,8 @@ impl Block {
 fn rolling(case: &Case) -> Result<Value, Complaint> {
     let of = |name: &str| case.read::<[f64; 3]>(&format!("input.{name}")).map(Vec3::from_array);
     let (mass, radius) = (case.number("input.mass_kg")?, case.number("input.radius_m")?);
-    let (lever, normal) = (case.number("input.contact_radius_m")?, case.number("input.normal_force")?);
+    let (lever, normal) =
+        (case.number("input.contact_radius_m")?, case.number("input.normal_force")?);
     let (n, v, w) = (of("normal")?, of("velocity")?, of("spin")?);
     let stiffness = mass * SOFT * SOFT;
     let mut bodies = bodies();
@@ -267,8 +269,7 @@ fn on_four_corners(case: &Case) -> Result<Value, Complaint> {
     let (mass, size) = (case.number("input.mass_kg")?, of("size_m")?);
     let (pressing, k) =
         (case.number("input.pressing_force")?, case.number("input.stiffness_per_corner")?);
-    let (exponent, damping) =
-        (case.number("input.exponent")?, case.number("input.damping_c")?);
+    let (exponent, damping) = (case.number("input.exponent")?, case.number("input.damping_c")?);
     let [a, b, c] = size.map(|edge| edge * edge * mass / 12.0).to_array();
     let mut bodies = bodies();
     let matter =

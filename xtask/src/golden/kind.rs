@@ -25,15 +25,8 @@ pub(super) trait Kind {
 }
 
 /// All that are built.
-const KINDS: [&dyn Kind; 7] = [
-    &Contract,
-    &PaperEquations,
-    &Derivatives,
-    &Capture,
-    &TwoBodies,
-    &NormalContact,
-    &Friction,
-];
+const KINDS: [&dyn Kind; 7] =
+    [&Contract, &PaperEquations, &Derivatives, &Capture, &TwoBodies, &NormalContact, &Friction];
 
 /// The kind of this name, if it is built.
 pub(super) fn named(kind: &str) -> Option<&'static dyn Kind> {

@@ -161,9 +161,7 @@ struct CornerCase {
 
 impl CornerCase {
     fn read(case: &Case) -> Result<Self, Complaint> {
-        let of = |name: &str| {
-            case.read::<[f64; 3]>(&format!("input.{name}")).map(Vec3::from_array)
-        };
+        let of = |name: &str| case.read::<[f64; 3]>(&format!("input.{name}")).map(Vec3::from_array);
         let (corner, n, I) =
             (of("corner_in_body_m")?, of("wall_outward_normal_N")?, of("inertia_kgm2_body_axes")?);
         let inertia = Sym3::diagonal(I.x, I.y, I.z);

@@ -4,8 +4,8 @@ use wrasse_dynamics::{BodyId, Frame, MassProperties};
 use wrasse_geometry::Shape;
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Sym3, Vec3, vec3};
 use wrasse_world::{
-    Contact, ContactAccuracy, ContactEnergy, ContactLaw, ContactRecord, CouplingId, FreeBody, Scene,
-    Stepper, SystemId,
+    Contact, ContactAccuracy, ContactEnergy, ContactLaw, ContactRecord, CouplingId, FreeBody,
+    Scene, Stepper, SystemId,
 };
 
 /// Mass of what nothing moves (kg): it takes a speed of 1e-18 m/s for each N·s.
@@ -48,7 +48,7 @@ impl Bodies {
         let frame = |p: Vec3<f64>| Pose { translation: p, ..Pose::identity() };
         let X_wall = Pose::from_quat(from_z_to(n), through);
         let on = |X_BF| Frame { body: BodyId::Base, X_BF };
-        let contact = Box::new(Contact::new(&shape, &Shape::Plane, 1, law));
+        let contact = ball_contact(&shape, &Shape::Plane, law);
         self.scene.couple((id, on(frame(at))), (self.wall, on(X_wall)), contact)
     }
     /// Contact between balls about the origins of two bodies.
@@ -60,7 +60,7 @@ impl Bodies {
     ) -> CouplingId {
         let origin = Frame { body: BodyId::Base, X_BF: Pose::identity() };
         let ball = |radius| Shape::Sphere { radius };
-        let contact = Box::new(Contact::new(&ball(a.1), &ball(b.1), 1, law));
+        let contact = ball_contact(&ball(a.1), &ball(b.1), law);
         self.scene.couple((a.0, origin), (b.0, origin), contact)
     }
     /// Flies until a contact has touched and parted; the time when it parted (s), NaN if it does not.
@@ -94,6 +94,12 @@ impl Bodies {
         let body = self.scene.body(id);
         body.pose().rotation * body.twist().linear
     }
+}
+
+/// Contact of a ball with anything: there is a rule for it.
+fn ball_contact(ball: &Shape, other: &Shape, law: ContactLaw) -> Box<Contact> {
+    let contact = Contact::new(ball, other, 1, law);
+    Box::new(contact.unwrap_or_else(|| unreachable!("a ball touches all shapes")))
 }
 
 /// Turns the z axis into a direction.

@@ -11,8 +11,8 @@ use wrasse_hardware::{ActuatorCommand, SetPointMotion};
 use wrasse_spatial::{Quat, Sym3, Vec3};
 use wrasse_vehicle::{JOINTS, Vehicle};
 use wrasse_world::{
-    BaseAttitude, Bushing, Drive, Equipment, FrameMotion, FreeBody, Scene, Source,
-    Stepper, SystemId, SystemSetup,
+    BaseAttitude, Bushing, Drive, Equipment, FrameMotion, FreeBody, Scene, Source, Stepper,
+    SystemId, SystemSetup,
 };
 
 /// How the motion is integrated: far below what is asked of it.

@@ -88,13 +88,14 @@ struct Push {
 }
 
 impl Contact {
-    /// Of two shapes under a law, with about so many places where a flat lies on a flat.
-    pub fn new(A: &Shape, B: &Shape, places: usize, law: ContactLaw) -> Self {
-        let patch = Patch::new(A, B, places);
+    /// Of two shapes under a law, with about so many places where a flat lies on a flat; none where there is no
+    /// rule for how they touch.
+    pub fn new(A: &Shape, B: &Shape, places: usize, law: ContactLaw) -> Option<Self> {
+        let patch = Patch::new(A, B, places)?;
         let count = patch.len();
         let (friction, pace) = (FrictionForce::None, (0.0, 0.0));
         let place = Place { touches: false, friction, pace, mobility: 0.0 };
-        Self {
+        Some(Self {
             places: vec![place; count],
             now: vec![Seen::default(); count],
             before: vec![Seen::default(); count],
@@ -104,7 +105,7 @@ impl Contact {
             touching: 0,
             patch,
             law,
-        }
+        })
     }
     /// The law.
     pub fn law(&self) -> &ContactLaw {
@@ -188,12 +189,7 @@ impl Contact {
         }
     }
     /// Its energy.
-    pub(crate) fn energy(
-        &self,
-        E: &FrameMotion,
-        F: &FrameMotion,
-        own: &[f64],
-    ) -> ContactEnergy {
+    pub(crate) fn energy(&self, E: &FrameMotion, F: &FrameMotion, own: &[f64]) -> ContactEnergy {
         ContactEnergy {
             stored: self.stored_energy(E, F, own),
             normal_loss: own[NORMAL_LOSS],

@@ -2,9 +2,7 @@
 
 use crate::gears::with_gears;
 use crate::scene::{Scene, SystemId};
-use wrasse_dynamics::{
-    BodyId, JointDrive, PerBody, State, driven_dynamics, kinematics,
-};
+use wrasse_dynamics::{BodyId, JointDrive, PerBody, State, driven_dynamics, kinematics};
 use wrasse_spatial::{Mat3, SpatialForce, SpatialVelocity, Vec3, vec3};
 
 impl<const J: usize> Scene<J> {
@@ -41,8 +39,7 @@ impl<const J: usize> Scene<J> {
             let V = kinematics(&system.robot, &moved).V_NB_B(body);
             X_NB.rotation * (V.linear + V.angular.cross(p_B))
         };
-        let columns =
-            [vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0)].map(given);
+        let columns = [vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), vec3(0.0, 0.0, 1.0)].map(given);
         Mat3 { rows: columns }
     }
 }

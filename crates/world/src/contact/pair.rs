@@ -26,7 +26,9 @@ pub enum PairRefused {
     #[error("their exponents differ ({0} and {1}): springs of one exponent only act in series")]
     Exponents(f64, f64),
     /// A restitution for which there is no damping.
-    #[error("a restitution of {0} is not between 0.05 and 1: below, the damping grows without bound")]
+    #[error(
+        "a restitution of {0} is not between 0.05 and 1: below, the damping grows without bound"
+    )]
     Restitution(f64),
 }
 
@@ -73,7 +75,7 @@ pub fn law_of_pair(
 }
 
 /// The law of a pair whose values are known together.
-pub(crate) fn law_of_one(pair: &Surface<f64>, curvature: Curvature) -> ContactLaw {
+pub fn law_of_known_pair(pair: &Surface<f64>, curvature: Curvature) -> ContactLaw {
     let (stiffness, exponent) = spring(pair, curvature);
     let damping = damping_number(pair.restitution) / pair.restitution_speed;
     let normal = NormalForce { stiffness, exponent, damping };
@@ -155,7 +157,9 @@ mod tests {
         };
         let flat = Curvature::Radius(1.0);
         let law = law_of_pair(&of(1e6), &of(3e6), flat).unwrap();
-        assert!((law.normal.stiffness - 7.5e5).abs() < 1e-6 && (law.given_by_A - 0.75).abs() < 1e-15);
+        assert!(
+            (law.normal.stiffness - 7.5e5).abs() < 1e-6 && (law.given_by_A - 0.75).abs() < 1e-15
+        );
         assert!(law_of_pair(&of(1e6), &steel(0.5), flat).is_err());
         assert!(law_of_pair(&steel(0.04), &steel(0.5), flat).is_err());
     }

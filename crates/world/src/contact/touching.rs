@@ -349,9 +349,12 @@ impl Contact {
     fn fastest(&self) -> f64 {
         let each = self.places.iter().zip(&self.now);
         let passed = each.filter(|(place, seen)| seen.beyond(place.touches) > 0.0);
-        passed.fold(0.0, |most: f64, (_, seen)| {
-            if seen.rate.abs() > most.abs() { seen.rate } else { most }
-        })
+        passed.fold(
+            0.0,
+            |most: f64, (_, seen)| {
+                if seen.rate.abs() > most.abs() { seen.rate } else { most }
+            },
+        )
     }
 
     /// How fast a place is: of its spring and its damper with the effective mass there.

@@ -57,7 +57,10 @@ mod tests {
         let (force, moment) = uniform_disc_friction(1e-6);
         assert!((force / 1e-6 - 1.0).abs() < 1e-6 && (moment - 2.0 / 3.0).abs() < 1e-11);
         let (force, moment) = uniform_disc_friction(100.0);
-        assert!((force - 1.0).abs() < 2e-5 && (moment - 0.25 / 100.0).abs() < 1e-6, "{force} {moment}");
+        assert!(
+            (force - 1.0).abs() < 2e-5 && (moment - 0.25 / 100.0).abs() < 1e-6,
+            "{force} {moment}"
+        );
         let (below, above) = (uniform_disc_friction(1.0 - 1e-9), uniform_disc_friction(1.0 + 1e-9));
         assert!((below.0 - above.0).abs() < 1e-7 && (below.1 - above.1).abs() < 1e-7);
         assert!((uniform_disc_friction(1.0).0 - 8.0 / (3.0 * PI)).abs() < 1e-15);

@@ -68,13 +68,7 @@ impl Bushing {
 }
 
 impl Coupling for Bushing {
-    fn act(
-        &self,
-        E: &FrameMotion,
-        F: &FrameMotion,
-        _: &[f64],
-        _: &mut [f64],
-    ) -> SpatialForce<f64> {
+    fn act(&self, E: &FrameMotion, F: &FrameMotion, _: &[f64], _: &mut [f64]) -> SpatialForce<f64> {
         self.wrench(E, F)
     }
     fn stored_energy(&self, E: &FrameMotion, F: &FrameMotion, _: &[f64]) -> f64 {

@@ -64,7 +64,7 @@ pub(crate) fn touch(
     (b, B): (SystemId, Shape),
     law: ContactLaw,
 ) -> CouplingId {
-    scene.couple((a, origin()), (b, origin()), Box::new(Contact::new(&A, &B, 16, law)))
+    scene.couple((a, origin()), (b, origin()), Box::new(Contact::new(&A, &B, 16, law).unwrap()))
 }
 
 /// Flies until a contact has parted again; at most 60 s.

@@ -41,7 +41,7 @@ fn momentum_stays_to_the_last_bits_over_a_hundred_thousand_steps() {
         Pose::from_quat(upside_down, vec3(0.0, 0.0, 0.15)),
     ]
     .map(|X| {
-        let contact = Contact::new(&Shape::Sphere { radius: 0.1 }, &Shape::Plane, 1, law);
+        let contact = Contact::new(&Shape::Sphere { radius: 0.1 }, &Shape::Plane, 1, law).unwrap();
         scene.couple((inner, at(Pose::identity())), (plates, at(X)), Box::new(contact))
     });
     let start = scene.account();
