@@ -9,6 +9,7 @@ mod friction;
 mod kind;
 mod normal_contact;
 mod paper_equations;
+mod peg;
 mod product;
 mod state;
 mod table;

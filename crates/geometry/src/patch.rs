@@ -27,8 +27,8 @@ pub struct Meeting {
 ///
 /// A ball touches at one place with all of the stiffness; a capsule at its ends, which share it. A box has
 /// a grid of points on each face, of which those of one face share it; of two boxes the smaller one has them,
-/// and of the larger one the corners. A cylinder has a disc of points on each end and, against a bore, its
-/// rims, the edges of the bore and discs between: see [`Patch::new`].
+/// and of the larger one the corners. A cylinder has a disc of points on each end. Of a peg in a bore the rims of
+/// the peg and the edges of the bore touch, each with all of the stiffness.
 ///
 /// What is not felt: crossing edges of boxes between the points; flats of kinds that have no points here.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,8 +42,8 @@ pub struct Patch {
 pub const MOST_PLACES: usize = 1024;
 
 impl Patch {
-    /// Of a pair of shapes, with about so many places where a flat lies on a flat or a peg in a bore: a square
-    /// number is met on a box, 16, 64 and 256 on a disc. None where the pair has no rule.
+    /// Of a pair of shapes, with about so many places where a flat lies on a flat: a square number is met on a
+    /// box, 16, 64 and 256 on a disc. None where the pair has no rule.
     pub fn new(A: &Shape, B: &Shape, places: usize) -> Option<Self> {
         let places = places.clamp(1, MOST_PLACES);
         let feelers = of_pair(A, B, places)?;
@@ -86,8 +86,8 @@ fn of_pair(A: &Shape, B: &Shape, places: usize) -> Option<Vec<(Side, Feeler)>> {
         (Capsule { radius, length }, Capsule { .. }) => {
             all(Side::A, vec![Feeler::Axis { half: 0.5 * length, radius: *radius, share: 1.0 }])
         }
-        (Cylinder { .. }, Bore { .. }) => Some(peg_in_bore((Side::A, A), (Side::B, B), places)),
-        (Bore { .. }, Cylinder { .. }) => Some(peg_in_bore((Side::B, B), (Side::A, A), places)),
+        (Cylinder { .. }, Bore { .. }) => Some(peg_in_bore((Side::A, A), (Side::B, B))),
+        (Bore { .. }, Cylinder { .. }) => Some(peg_in_bore((Side::B, B), (Side::A, A))),
         (Capsule { .. }, _) => all(Side::A, ends(A)),
         (_, Capsule { .. }) => all(Side::B, ends(B)),
         (Box { .. }, Box { .. }) => Some(two_boxes(A, B, places)),
@@ -198,34 +198,27 @@ const RADAU_8: [(f64, f64); 8] = [
     (1.0, 0.015_625),
 ];
 
-/// A peg in a bore: the rims of the peg against the bore, the edges of the bore against the peg's side, each
-/// a quarter; and discs between the rims, which share a half. Each touches at the point of its circle that is
-/// deepest. A peg that lies in the bore all along takes the whole stiffness, two corners of a tilted one a
-/// quarter each.
+/// A peg in a bore: the rims of the peg against the bore, the edges of the bore against the peg's side. Each
+/// touches at the point of its circle that is deepest, with the whole stiffness: where two touch at once they
+/// are on opposite walls, or at the two ends of a peg that lies along the bore.
 fn peg_in_bore(
     (peg_side, peg): (Side, &Shape),
     (bore_side, bore): (Side, &Shape),
-    places: usize,
 ) -> Vec<(Side, Feeler)> {
     let Shape::Cylinder { radius: r, length } = peg else { return vec![] };
     let Shape::Bore { radius: R, depth, chamfer_depth, chamfer_angle, .. } = bore else {
         return vec![];
     };
-    let circle = |z: f64, radius: f64, share: f64| Feeler::Circle { z, radius, share };
+    let circle = |z: f64, radius: f64| Feeler::Circle { z, radius, share: 1.0 };
     let mut all = vec![
-        (peg_side, circle(-0.5 * length, *r, 0.25)),
-        (peg_side, circle(0.5 * length, *r, 0.25)),
-        (bore_side, circle(-chamfer_depth, *R, 0.25)),
-        (bore_side, circle(-depth, *R, 0.25)),
+        (peg_side, circle(-0.5 * length, *r)),
+        (peg_side, circle(0.5 * length, *r)),
+        (bore_side, circle(-chamfer_depth, *R)),
+        (bore_side, circle(-depth, *R)),
     ];
     if *chamfer_depth > 0.0 {
         let mouth = R + chamfer_depth * libm::tan(*chamfer_angle);
-        all.push((bore_side, circle(0.0, mouth, 0.25)));
+        all.push((bore_side, circle(0.0, mouth)));
     }
-    let between = places.saturating_sub(all.len());
-    all.extend((0..between).map(|i| {
-        let z = length * ((i as f64 + 0.5) / between as f64 - 0.5);
-        (peg_side, circle(z, *r, 0.5 / between as f64))
-    }));
     all
 }

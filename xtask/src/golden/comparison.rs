@@ -221,22 +221,50 @@ impl Walk<'_> {
 }
 
 impl Walk<'_> {
-    /// Compares the columns of a list of rows, each as one array; their names.
+    /// Compares the columns of a list of rows, each as one array; their names. Objects in rows are rows of
+    /// their own.
     fn columns(&mut self, rows: &[Value], found: &[Value]) -> Vec<String> {
-        let column = |of: &[Value], key: &str| {
-            Value::Array(of.iter().map(|row| row.get(key).cloned().unwrap_or_default()).collect())
+        let column = |of: &[Value], key: &str| -> Vec<Value> {
+            of.iter().map(|row| row.get(key).cloned().unwrap_or_default()).collect()
         };
         let first = rows.first().and_then(Value::as_object);
-        let keys = first.into_iter().flat_map(|row| row.keys().cloned());
-        let keys: Vec<_> = keys.filter(|key| numbers(&column(rows, key)).is_some()).collect();
-        for key in &keys {
+        let mut done = vec![];
+        for key in first.into_iter().flat_map(|row| row.keys()) {
+            // Rows that say nothing of it are left out.
+            let silent = |row: &Value| row.is_object() && row.get(key).is_none();
+            let (said, unsaid): (Vec<_>, Vec<_>) =
+                rows.iter().zip(found).partition(|(_, found)| !silent(found));
+            if !said.is_empty() && !unsaid.is_empty() {
+                let lost: Vec<_> = unsaid.iter().filter_map(|(row, _)| row.get(key)).collect();
+                self.below(key.clone(), |walk| lost.iter().for_each(|row| walk.leave_out(row)));
+            }
+            let (rows, found): (Vec<_>, Vec<_>) = if said.is_empty() {
+                (rows.to_vec(), found.to_vec())
+            } else {
+                said.into_iter().map(|(a, b)| (a.clone(), b.clone())).unzip()
+            };
+            let (expected, of_found) = (column(&rows, key), column(&found, key));
             let there = found.iter().any(|row| row.get(key).is_some() || row.is_null());
-            let of_found = column(found, key);
-            let expected = column(rows, key);
-            self.below(key.clone(), |walk| walk.value(&expected, there.then_some(&of_found)));
+            let whole = Value::Array(expected.clone());
+            if numbers(&whole).is_some() {
+                let of_found = Value::Array(of_found);
+                self.below(key.clone(), |walk| walk.value(&whole, there.then_some(&of_found)));
+                done.push(key.clone());
+            } else if there && expected.iter().all(|row| row.is_object() && !is_turn(row)) {
+                let mut names = vec![];
+                self.below(key.clone(), |walk| names = walk.columns(&expected, &of_found));
+                let numbers_left = expected.iter().any(|row| holds_values(&without(row, &names)));
+                if !numbers_left {
+                    done.push(key.clone());
+                }
+            }
         }
-        keys
+        done
     }
+}
+
+fn is_turn(value: &Value) -> bool {
+    value.as_object().is_some_and(is_attitude)
 }
 
 /// An object without some of its members.

@@ -8,6 +8,7 @@ use super::file::{Case, Complaint};
 use super::friction::Friction;
 use super::normal_contact::NormalContact;
 use super::paper_equations::PaperEquations;
+use super::peg::Peg;
 use super::two_bodies::TwoBodies;
 
 /// A kind of golden case. It hands a case to the product and gives back what that finds; every number
@@ -25,8 +26,16 @@ pub(super) trait Kind {
 }
 
 /// All that are built.
-const KINDS: [&dyn Kind; 7] =
-    [&Contract, &PaperEquations, &Derivatives, &Capture, &TwoBodies, &NormalContact, &Friction];
+const KINDS: [&dyn Kind; 8] = [
+    &Contract,
+    &PaperEquations,
+    &Derivatives,
+    &Capture,
+    &TwoBodies,
+    &NormalContact,
+    &Friction,
+    &Peg,
+];
 
 /// The kind of this name, if it is built.
 pub(super) fn named(kind: &str) -> Option<&'static dyn Kind> {
