@@ -166,9 +166,9 @@ fn largest_tilt(pair: &Pair, sizes: (f64, f64), mu: f64) -> Option<f64> {
             break;
         }
         if two_point_depth(pair, sizes, middle) > 2.0 * r * mu {
-            low = middle
+            low = middle;
         } else {
-            high = middle
+            high = middle;
         }
     }
     Some(low.to_degrees())

@@ -11,12 +11,14 @@ pub struct ContactEnergy {
     pub friction_loss: f64,
     /// Work on the bodies: what is stored and dissipated, taken from them.
     pub work: f64,
+    /// Stored as it began to touch: nothing but rounding, unless shapes overlapped then.
+    pub given: f64,
 }
 
 impl ContactEnergy {
     /// What its own books do not explain (J).
     pub fn rest(&self) -> f64 {
-        self.work + self.stored + self.normal_loss + self.friction_loss
+        self.work + self.stored + self.normal_loss + self.friction_loss - self.given
     }
 }
 

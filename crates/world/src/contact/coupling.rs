@@ -74,6 +74,8 @@ pub struct Contact {
     pub(crate) samples: Samples,
     meetings: RefCell<Vec<Meeting>>,
     pub(crate) touching: usize,
+    /// Energy of what overlapped as it began to touch (J).
+    pub(crate) given: f64,
 }
 
 /// What one place does.
@@ -103,6 +105,7 @@ impl Contact {
             samples: Samples::default(),
             meetings: RefCell::new(vec![]),
             touching: 0,
+            given: 0.0,
             patch,
             law,
         })
@@ -195,6 +198,7 @@ impl Contact {
             normal_loss: own[NORMAL_LOSS],
             friction_loss: own[FRICTION_LOSS],
             work: own[WORK],
+            given: self.given,
         }
     }
     /// A place ceases to touch: its bristle springs back, and what it stored is gone.

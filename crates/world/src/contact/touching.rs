@@ -6,7 +6,7 @@ use crate::advance::NonFinite;
 use crate::couplings::FrameMotion;
 use crate::scene::{CouplingId, Scene, SystemId};
 use wrasse_dynamics::Frame;
-use wrasse_spatial::{Mat3, Vec3};
+use wrasse_spatial::{Mat3, Vec3, vec3};
 
 /// How finely contacts are integrated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -253,6 +253,8 @@ impl<const J: usize> Scene<J> {
                     contact.let_go(i, &mut coupled.row);
                 } else {
                     contact.places[i].touches = true;
+                    let seen = contact.now[i];
+                    contact.given += seen.share * contact.law.normal.stored(seen.depth);
                     touched = true;
                 }
             }
@@ -361,8 +363,7 @@ impl Contact {
     fn pace(&mut self, i: usize, normal: Vec3<f64>, W: &Mat3<f64>) {
         let seen = self.now[i];
         let along = normal.dot(*W * normal);
-        // The most mobile direction along the surface: no more than what is left of the trace.
-        let across = (0..3).map(|k| W.rows[k].to_array()[k]).sum::<f64>() - along;
+        let across = most_mobile_across(normal, W);
         let law = self.law.normal;
         let mass = 1.0 / (along * seen.share);
         let begins = self.places[i].pace == (0.0, 0.0);
@@ -378,6 +379,16 @@ impl Contact {
         let (bristle, creep) = place.friction.pace(across, normal, seen.slip);
         place.pace = (tangent * along + bristle, damper + creep);
     }
+}
+
+/// The largest inverse effective mass (1/kg) of all directions along a surface.
+fn most_mobile_across(normal: Vec3<f64>, W: &Mat3<f64>) -> f64 {
+    let other = if normal.x.abs() < 0.5 { vec3(1.0, 0.0, 0.0) } else { vec3(0.0, 1.0, 0.0) };
+    let s = normal.cross(other);
+    let s = s * (1.0 / s.norm());
+    let t = normal.cross(s);
+    let (a, b, c) = (s.dot(*W * s), t.dot(*W * t), s.dot(*W * t));
+    0.5 * (a + b) + (0.25 * (a - b) * (a - b) + c * c).sqrt()
 }
 
 /// Time and value of the top of the cubic through depths and rates at both ends of a step.
