@@ -5,5 +5,6 @@
 mod bodies;
 mod cases_of_others;
 mod friction;
+mod grasped;
 mod impacts;
 mod momentum;
