@@ -293,3 +293,18 @@ fn in_plane(z: Vec3<f64>, normal: Vec3<f64>) -> Vec3<f64> {
     let shrunk = flat.norm();
     if shrunk > 0.0 { flat * (length / shrunk) } else { flat }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use wrasse_spatial::vec3;
+
+    #[test]
+    fn a_bristle_that_turns_along_keeps_its_length() {
+        let turned = in_plane(vec3(3.0, 0.0, 4.0), vec3(0.0, 0.6, 0.8));
+        assert!(
+            (turned.norm() - 5.0).abs() < 1e-15 && turned.dot(vec3(0.0, 0.6, 0.8)).abs() < 1e-15
+        );
+        assert_eq!(in_plane(vec3(0.0, 0.0, 2.0), vec3(0.0, 0.0, 1.0)), Vec3::zero());
+    }
+}

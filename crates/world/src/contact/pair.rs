@@ -160,6 +160,10 @@ mod tests {
         assert!(
             (law.normal.stiffness - 7.5e5).abs() < 1e-6 && (law.given_by_A - 0.75).abs() < 1e-15
         );
+        // The softer one, which gives way by three quarters, throws back with 0.5 at 1 m/s, the other one whole.
+        let soft = Surface { restitution: 0.5, ..of(1e6) };
+        let law = law_of_pair(&soft, &of(3e6), flat).unwrap();
+        assert!((law.normal.damping / damping_number(0.5) - 0.75).abs() < 1e-14, "{law:?}");
         assert!(law_of_pair(&of(1e6), &steel(0.5), flat).is_err());
         assert!(law_of_pair(&steel(0.04), &steel(0.5), flat).is_err());
     }

@@ -2,7 +2,7 @@
 
 use crate::bodies::{ball, fly_until_parted, frictionless, scene, touch, velocity, wall, z};
 use wrasse_geometry::Shape;
-use wrasse_spatial::Vec3;
+use wrasse_spatial::{Vec3, vec3};
 use wrasse_testing::Worst;
 use wrasse_world::{ContactAccuracy, NormalForce};
 
@@ -102,6 +102,25 @@ fn restitution_depends_on_speed_as_the_law_says_wherever_touch_falls() {
         }
     }
     worst.is_below(1e-6);
+}
+
+/// A ball on a curved way: two that pass each other off centre touch within one step of 0.1 s, apart before and after
+/// it. It is seen by the rates at both ends.
+#[test]
+fn a_touch_within_one_step_is_not_missed() {
+    let mut scene = scene(0.1, ContactAccuracy::Everyday);
+    let v = vec3(1.0, 0.0, 0.0);
+    // They are nearest in the middle of the second step, overlapping by a hundredth of their distance.
+    let start = vec3(-0.15, 0.198, 0.0);
+    let a = ball(&mut scene, (1.0, 0.1), start, (Vec3::zero(), v));
+    let b = ball(&mut scene, (1.0, 0.1), Vec3::zero(), (Vec3::zero(), Vec3::zero()));
+    let law = frictionless(NormalForce::with_restitution(1e6, 1.0, (0.9, 0.1)));
+    let sphere = || Shape::Sphere { radius: 0.1 };
+    let id = touch(&mut scene, (a, sphere()), (b, sphere()), law);
+    scene.begin_period();
+    scene.advance(0.3).unwrap();
+    assert_eq!(scene.contact(id).unwrap().record().touches, 1);
+    assert!(velocity(&scene, b).norm() > 1e-3);
 }
 
 /// Which of the two is called A does not matter, nor on which side the wall is: the same numbers.
