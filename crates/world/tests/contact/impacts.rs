@@ -104,8 +104,7 @@ fn restitution_depends_on_speed_as_the_law_says_wherever_touch_falls() {
     worst.is_below(1e-6);
 }
 
-/// A ball on a curved way: two that pass each other off centre touch within one step of 0.1 s, apart before and after
-/// it. It is seen by the rates at both ends.
+/// Two balls that pass each other off centre would touch within one step of 0.1 s, apart before and after it.
 #[test]
 fn a_touch_within_one_step_is_not_missed() {
     let mut scene = scene(0.1, ContactAccuracy::Everyday);
