@@ -18,7 +18,7 @@ pub struct NonFinite {
 
 impl<const J: usize> Scene<J> {
     /// Advance by `period` (s): the period that the commands were set for, at once or in parts. No heap
-    /// is touched.
+    /// is touched, but as places of a contact begin to touch, and once in each period while they do.
     ///
     /// # Errors
     /// If a number is no longer finite.
