@@ -7,6 +7,10 @@ use wrasse_document::{Complaint, Document, Setting};
 
 /// What the commands that read a mission have in common.
 #[derive(Debug, Args)]
+#[allow(
+    rustdoc::broken_intra_doc_links,
+    reason = "a key of a list, in the help of the command line"
+)]
 pub(crate) struct Settings {
     /// Give one value of the mission file another value; repeatable. The key is written as
     /// control.rate_hz, in a list with the name or the number (from 0) of the value:
