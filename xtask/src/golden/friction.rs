@@ -40,7 +40,8 @@ const LEFT_OUT: [(&str, &str); 4] = [
 /// What presses stands on a spring as soft as this (1/s): the normal motion is none, and bounds no step.
 const SOFT: f64 = 1.0;
 
-const STEPPER: Stepper = Stepper::Adaptive { tolerance: 1e-13 };
+/// Bristles are some nanometres long, and asked for to 1e-6 of that.
+const STEPPER: Stepper = Stepper::Adaptive { tolerance: 1e-16 };
 
 pub(super) struct Friction;
 
