@@ -5,7 +5,7 @@ use crate::shape::Shape;
 use wrasse_spatial::{Pose, Vec3, vec3};
 
 /// One place where two shapes meet, or would.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Meeting {
     /// How deep the surfaces are in each other (m); negative where they are apart.
     pub depth: f64,

@@ -36,11 +36,11 @@ impl<const N: usize> Profile<N> {
             let share = along.clamp(0.0, 1.0);
             let from = [way[0] - share * edge[0], way[1] - share * edge[1]];
             let (height, far) = (way[0] * out[0] + way[1] * out[1], norm(from));
-            let beside = share != along && far > 0.0;
-            let size = if beside { far } else { height.abs() };
+            let at_vertex = share != along && far > 0.0;
+            let size = if at_vertex { far } else { height.abs() };
             if size < best {
-                (best, at_corner) = (size, beside);
-                found = if beside {
+                (best, at_corner) = (size, at_vertex);
+                found = if at_vertex {
                     FlatNearest { distance: far, normal: from.map(|x| x / far) }
                 } else {
                     FlatNearest { distance: height, normal: out }

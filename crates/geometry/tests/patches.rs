@@ -5,16 +5,8 @@
 use wrasse_geometry::{Meeting, Patch, Shape, nearest};
 use wrasse_spatial::{Pose, Quat, Vec3, vec3};
 
-const NOWHERE: Meeting = Meeting {
-    depth: 0.0,
-    normal: Vec3 { x: 0.0, y: 0.0, z: 0.0 },
-    on_A: Vec3 { x: 0.0, y: 0.0, z: 0.0 },
-    on_B: Vec3 { x: 0.0, y: 0.0, z: 0.0 },
-    share: 0.0,
-};
-
 fn meetings(patch: &Patch, X_NA: &Pose<f64>, X_NB: &Pose<f64>) -> Vec<Meeting> {
-    let mut all = vec![NOWHERE; patch.len()];
+    let mut all = vec![Meeting::default(); patch.len()];
     patch.meet(X_NA, X_NB, &mut all);
     all
 }

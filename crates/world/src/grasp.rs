@@ -126,7 +126,7 @@ impl<const J: usize> Scene<J> {
         self.systems[grasped.0] = None;
         for side in self.couplings.iter_mut().flatten().flat_map(|c| [&mut c.E, &mut c.F]) {
             if side.system == grasped {
-                *side = side.taken(id, held, &frame);
+                *side = side.on_held(id, held, &frame);
             }
         }
         self.part_within_bodies();

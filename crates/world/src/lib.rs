@@ -33,8 +33,7 @@ pub use command::Saturation;
 pub use contact::{
     Bristle, BristleDamping, Contact, ContactAccuracy, ContactEnergy, ContactEvent, ContactLaw,
     ContactRecord, Curvature, FrictionForce, FrictionLaw, LEAST_RESTITUTION, NormalForce,
-    PairRefused, damping_number, law_of_known_pair, law_of_pair, restitution_at,
-    uniform_disc_friction,
+    PairRefused, damping_number, law_of_pair, restitution_at, uniform_disc_friction,
 };
 pub use couplings::{Bushing, Coupling, FrameMotion, Side};
 pub use effectors::{

@@ -141,7 +141,7 @@ impl<const J: usize> Scene<J> {
     pub fn side_of_held(&self, id: SystemId, held: HeldId, frame: Frame<f64>) -> Side {
         let at = self.system(id).held.get(held.0).and_then(Option::as_ref).map(|held| held.frame);
         let side = Side::from((id, frame));
-        at.map_or(side, |at| side.taken(id, held, &at))
+        at.map_or(side, |at| side.on_held(id, held, &at))
     }
     /// Take a coupling away.
     pub fn uncouple(&mut self, id: CouplingId) {

@@ -370,6 +370,25 @@ mod tests {
         assert_eq!((worst.path.as_str(), worst.deviation, worst.allowed), ("a", 1.1, 1.0));
     }
 
+    /// The columns of rows are held against their largest element, objects in them likewise; a row that says
+    /// nothing of a column is told, and none that does is lost with it.
+    #[test]
+    fn a_column_of_rows_is_one_array() {
+        let expect = json!({ "rates": [
+            { "t": 1.0, "in": { "x": 10.0 } }, { "t": 2.0, "in": { "x": 0.1 } }, { "t": 3.0, "in": { "x": 5.0 } }
+        ] });
+        let row = |t: f64, x: f64| json!({ "t": t, "in": { "x": x } });
+        let found =
+            |middle: Value, last: f64| json!({ "rates": [row(1.0, 10.0), middle, row(3.0, last)] });
+        assert!(compared(&expect, found(row(2.0, 1.05), 5.0)).is_met());
+        assert!(!compared(&expect, found(row(2.0, 1.2), 5.0)).is_met());
+        assert!(!compared(&expect, found(Value::Null, 5.0)).is_met());
+        let silent = compared(&expect, found(json!({ "t": 2.0 }), 5.0));
+        assert!(silent.is_met() && silent.left_out.len() == 1, "{silent:?}");
+        assert!(!compared(&expect, found(json!({ "t": 2.0 }), 6.2)).is_met());
+        assert!(!compared(&expect, json!({ "rates": [row(1.0, 10.0), row(2.0, 0.1)] })).is_met());
+    }
+
     #[test]
     fn what_is_not_a_number_meets_no_tolerance() {
         let expect = json!({ "a": [1.0, 2.0, 3.0], "loose": 1.0 });

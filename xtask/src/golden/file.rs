@@ -61,6 +61,10 @@ impl Case {
         let found = path.split('.').try_fold(&self.value, |value, key| value.get(key));
         found.ok_or_else(|| self.complaint(path, "is missing"))
     }
+    /// The list that is expected under a name; empty where there is none.
+    pub(super) fn rows(&self, name: &str) -> &[Value] {
+        self.expect[name].as_array().map_or(&[], Vec::as_slice)
+    }
     /// The words at a path.
     pub(super) fn text(&self, path: &str) -> Result<&str, Complaint> {
         let value = self.at(path)?;

@@ -159,7 +159,7 @@ impl Block {
     }
 
     fn found(mut self, case: &Case) -> Value {
-        let rows = case.expect["rows"].as_array().map_or(&[][..], Vec::as_slice);
+        let rows = case.rows("rows");
         let rows: Vec<Value> = rows.iter().map(|row| self.at(row["t"].as_f64())).collect();
         let creep = self.steady_creep();
         // What slides to rest is there before three times the last row; loads last for 60 s.
@@ -245,22 +245,15 @@ fn rolling(case: &Case) -> Result<Value, Complaint> {
         given_by_A: 0.0,
     };
     bodies.touch_wall((id, Shape::Sphere { radius: lever }, Vec3::zero()), (Vec3::zero(), n), law);
-    let rows = case.expect["rows"].as_array().map_or(&[][..], Vec::as_slice);
-    let rows: Vec<Value> = rows
-        .iter()
-        .map(|row| {
-            if !row["t"].as_f64().is_some_and(|t| bodies.fly_to(t)) {
-                return Value::Null;
-            }
-            let body = bodies.scene.body(id);
-            json!({
-                "t": bodies.scene.time(),
-                "velocity": xyz(bodies.velocity(id)),
-                "spin": xyz(body.pose().rotation * body.twist().angular),
-                "displacement": xyz(body.pose().translation - start),
-            })
+    let rows = bodies.fly_rows(case.rows("rows"), |bodies| {
+        let body = bodies.scene.body(id);
+        json!({
+            "t": bodies.scene.time(),
+            "velocity": xyz(bodies.velocity(id)),
+            "spin": xyz(body.pose().rotation * body.twist().angular),
+            "displacement": xyz(body.pose().translation - start),
         })
-        .collect();
+    });
     Ok(json!({ "rows": rows }))
 }
 
@@ -290,20 +283,13 @@ fn on_four_corners(case: &Case) -> Result<Value, Complaint> {
         let wall = (Vec3::zero(), vec3(0.0, 0.0, 1.0));
         bodies.touch_wall((id, Shape::Sphere { radius: 0.0 }, corner), wall, law);
     }
-    let rows = case.expect["rows"].as_array().map_or(&[][..], Vec::as_slice);
-    let rows: Vec<Value> = rows
-        .iter()
-        .map(|row| {
-            if !row["t"].as_f64().is_some_and(|t| bodies.fly_to(t)) {
-                return Value::Null;
-            }
-            let body = bodies.scene.body(id);
-            let mut value = pose_value(&body.pose());
-            value["t"] = json!(bodies.scene.time());
-            value["angular"] = xyz(body.twist().angular);
-            value["linear_inertial"] = xyz(bodies.velocity(id));
-            value
-        })
-        .collect();
+    let rows = bodies.fly_rows(case.rows("rows"), |bodies| {
+        let body = bodies.scene.body(id);
+        let mut value = pose_value(&body.pose());
+        value["t"] = json!(bodies.scene.time());
+        value["angular"] = xyz(body.twist().angular);
+        value["linear_inertial"] = xyz(bodies.velocity(id));
+        value
+    });
     Ok(json!({ "rows": rows }))
 }

@@ -185,7 +185,7 @@ impl CornerCase {
 
     fn found(&self, case: &Case) -> Value {
         let theory = self.impulse_theory();
-        let rows = case.expect["stiff_limit"].as_array().map_or(&[][..], Vec::as_slice);
+        let rows = case.rows("stiff_limit");
         let stiff_limit: Vec<Value> = rows
             .iter()
             .map(|row| {
@@ -193,7 +193,7 @@ impl CornerCase {
                 let found = self.impact(NormalForce { stiffness, ..self.law });
                 json!({
                     "stiffness": stiffness,
-                    "deviation_of_twist_from_impulse_theory": twists_apart(&found, &theory),
+                    "deviation_of_twist_from_impulse_theory": twist_deviation(&found, &theory),
                     "contact_time": found["contact_time"],
                 })
             })
@@ -272,7 +272,7 @@ fn velocity_of(body: &FreeBody, p: Vec3<f64>) -> Vec3<f64> {
 }
 
 /// The largest difference between the components of two twists; NaN where one is missing.
-fn twists_apart(a: &Value, b: &Value) -> f64 {
+fn twist_deviation(a: &Value, b: &Value) -> f64 {
     let each = ["angular", "linear"].into_iter().flat_map(|key| (0..3).map(move |i| (key, i)));
     let number = |of: &Value, (key, i): (&str, usize)| of[key][i].as_f64().unwrap_or(f64::NAN);
     each.map(|at| (number(a, at) - number(b, at)).abs())

@@ -7,7 +7,7 @@ use super::kind::Kind;
 use serde_json::{Value, json};
 use std::rc::Rc;
 use wrasse_geometry::{Meeting, Patch, Shape};
-use wrasse_spatial::{Pose, Quat, Vec3, vec3};
+use wrasse_spatial::{Pose, Quat, vec3};
 use wrasse_world::NormalForce;
 
 const TOLERANCES: Tolerances = Tolerances {
@@ -89,14 +89,7 @@ impl Pair {
         let tip = vec3(lateral, 0.0, -self.chamfer - depth);
         let R = Quat::exp(vec3(0.0, tilt, 0.0)).to_matrix();
         let middle = tip + R * vec3(0.0, 0.0, 0.5 * self.length);
-        let nowhere = Meeting {
-            depth: 0.0,
-            normal: Vec3::zero(),
-            on_A: Vec3::zero(),
-            on_B: Vec3::zero(),
-            share: 0.0,
-        };
-        let mut all = vec![nowhere; self.patch.len()];
+        let mut all = vec![Meeting::default(); self.patch.len()];
         self.patch.meet(&Pose::new(R, middle), &Pose::identity(), &mut all);
         all
     }
@@ -133,7 +126,7 @@ fn two_point_depths(case: &Case) -> Result<Value, Complaint> {
     let sizes = (case.number("input.peg_radius_m")?, case.number("input.hole_radius_m")?);
     let pair = Pair::new(sizes, 0.0, 0.0).ok_or_else(|| case.complaint("input", "no rule"))?;
     let (r, R) = sizes;
-    let rows = case.expect["rows"].as_array().map_or(&[][..], Vec::as_slice);
+    let rows = case.rows("rows");
     let depths: Vec<Value> = rows
         .iter()
         .map(|row| {
@@ -142,7 +135,7 @@ fn two_point_depths(case: &Case) -> Result<Value, Complaint> {
             json!({ "tilt_deg": tilt, "depth_along_peg_m": depth })
         })
         .collect();
-    let wedging = case.expect["wedging"].as_array().map_or(&[][..], Vec::as_slice);
+    let wedging = case.rows("wedging");
     let wedging: Vec<Value> = wedging
         .iter()
         .map(|row| {
@@ -218,7 +211,7 @@ impl Insertion {
     }
 
     fn found(&self, case: &Case) -> Value {
-        let rows = case.expect["rows"].as_array().map_or(&[][..], Vec::as_slice);
+        let rows = case.rows("rows");
         let each = rows.iter().map(|row| {
             let depth = row["depth_m"].as_f64().unwrap_or(f64::NAN);
             let possible = self.is_possible(depth, &row["finite_rotation"]);
@@ -360,5 +353,21 @@ mod tests {
         for pair in found.windows(2) {
             assert!((pair[0] / pair[1] - 10.0).abs() < 1.5, "{found:?}");
         }
+    }
+
+    /// Of the rows of the file's three insertions no more are left out than cannot be: 2 of 20, 2 of 20 and 2 of
+    /// 20.
+    #[test]
+    fn few_rows_are_left_out() {
+        let path =
+            crate::tidy::repository_root().join("validation/golden/contact/peg_reference.json");
+        let file = super::super::file::GoldenFile::read(&path).expect("a file").expect("golden");
+        let cases = file.cases.iter().filter(|case| case.kind.ends_with("insertion"));
+        let left_out = cases.map(|case| {
+            let found = Insertion::read(case).expect("an insertion").found(case);
+            let rows = found["rows"].as_array().cloned().unwrap_or_default();
+            (rows.iter().filter(|row| row["finite_rotation"].is_null()).count(), rows.len())
+        });
+        assert_eq!(left_out.collect::<Vec<_>>(), [(2, 20), (2, 20), (2, 20)]);
     }
 }

@@ -1,5 +1,6 @@
 //! Rigid bodies that touch each other or a wall, for golden files of contact.
 
+use serde_json::Value;
 use wrasse_dynamics::{BodyId, Frame, MassProperties};
 use wrasse_geometry::Shape;
 use wrasse_spatial::{Pose, Quat, SpatialVelocity, Sym3, Vec3, vec3};
@@ -82,6 +83,14 @@ impl Bodies {
         let ahead = time - self.scene.time();
         self.scene.begin_period();
         ahead >= 0.0 && self.scene.advance(ahead).is_ok()
+    }
+    /// What is seen at the times of rows; nothing where it cannot be flown to.
+    pub(super) fn fly_rows(&mut self, rows: &[Value], seen: impl Fn(&Self) -> Value) -> Vec<Value> {
+        let each = rows.iter().map(|row| {
+            let flown = row["t"].as_f64().is_some_and(|t| self.fly_to(t));
+            if flown { seen(self) } else { Value::Null }
+        });
+        each.collect()
     }
     pub(super) fn record(&self, id: CouplingId) -> ContactRecord {
         self.scene.contact(id).map(|contact| *contact.record()).unwrap_or_default()

@@ -50,7 +50,7 @@ impl Kind for TwoBodies {
     fn found(&self, case: &Case) -> Result<Found, Complaint> {
         let vehicle = vehicle(case, case.text("input.vehicle")?)?;
         let mut pair = Pair::read(case, &vehicle)?;
-        let rows = case.expect["rows"].as_array().map_or(&[][..], Vec::as_slice);
+        let rows = case.rows("rows");
         let (linear, angular) = pair.momentum();
         let energy_at_start = pair.kinetic_energy() + pair.stored_energy();
         let rows: Vec<Value> = rows.iter().map(|row| pair.row(&row["t"])).collect();

@@ -19,7 +19,7 @@ pub use coupling::Contact;
 pub use friction::FrictionForce;
 pub use law::{Bristle, BristleDamping, ContactLaw, FrictionLaw};
 pub use normal_force::NormalForce;
-pub use pair::{Curvature, PairRefused, law_of_known_pair, law_of_pair};
+pub use pair::{Curvature, PairRefused, law_of_pair};
 pub use restitution::{LEAST_RESTITUTION, damping_number, restitution_at};
 pub use touching::ContactAccuracy;
 pub(crate) use touching::Touching;

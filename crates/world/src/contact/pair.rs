@@ -74,15 +74,6 @@ pub fn law_of_pair(
     Ok(ContactLaw { normal, friction, given_by_A })
 }
 
-/// The law of a pair whose values are known together.
-pub fn law_of_known_pair(pair: &Surface<f64>, curvature: Curvature) -> ContactLaw {
-    let (stiffness, exponent) = spring(pair, curvature);
-    let damping = damping_number(pair.restitution) / pair.restitution_speed;
-    let normal = NormalForce { stiffness, exponent, damping };
-    let friction = friction(&pair.friction, &normal, pair.restitution_speed);
-    ContactLaw { normal, friction, given_by_A: 0.5 }
-}
-
 /// Stiffness (N/mⁿ) and exponent of a surface against something rigid.
 fn spring(surface: &Surface<f64>, curvature: Curvature) -> (f64, f64) {
     match (surface.hardness, curvature) {
@@ -166,5 +157,24 @@ mod tests {
         assert!((law.normal.damping / damping_number(0.5) - 0.75).abs() < 1e-14, "{law:?}");
         assert!(law_of_pair(&of(1e6), &steel(0.5), flat).is_err());
         assert!(law_of_pair(&steel(0.04), &steel(0.5), flat).is_err());
+    }
+
+    /// A layer of 1e7 Pa, 1e-4 m² and 10 mm deep: 1e5 N/m. Two of them in series, half; the bristle of the pair
+    /// has 0.8 of that, and the smaller coefficient, whichever of them is called A.
+    #[test]
+    fn the_smoother_surface_decides_how_a_pair_rubs() {
+        let layer = |mu: f64| Surface {
+            hardness: Hardness::Elastic { youngs_modulus: 1e7, poisson_ratio: 0.3 },
+            friction: Friction::ElastoPlastic { mu, stiffness_ratio: 0.8, damping_ratio: 0.5 },
+            ..steel(0.5)
+        };
+        let flat = Curvature::Flat { area: 1e-4, thickness: 0.01 };
+        for (a, b) in [(0.2, 0.6), (0.6, 0.2)] {
+            let law = law_of_pair(&layer(a), &layer(b), flat).unwrap();
+            assert!((law.normal.stiffness - 5e4).abs() < 1e-9 && law.normal.exponent == 1.0);
+            let FrictionLaw::ElastoPlastic(bristle) = law.friction else { panic!("{law:?}") };
+            assert!((bristle.stiffness - 4e4).abs() < 1e-9, "{bristle:?}");
+            assert_eq!((bristle.mu, bristle.damping), (0.2, BristleDamping::Ratio(0.5)));
+        }
     }
 }

@@ -81,6 +81,7 @@ impl Samples {
         newest.seen.extend_from_slice(seen);
         self.count += 1;
         record.largest_force = record.largest_force.max(force);
+        record.deepest = seen.iter().fold(record.deepest, |most, seen| most.max(seen.depth));
         if self.count < 3 {
             return;
         }

@@ -151,14 +151,7 @@ impl<const J: usize> Scene<J> {
         let (mut low, mut high) = (0.0, h);
         let mut above = self.passed();
         if above <= 0.0 {
-            let Some(dip) = self.dip(h) else { return Ok((h, false)) };
-            self.step_and_look(t0, dip, step)?;
-            above = self.passed();
-            high = dip;
-            if above <= 0.0 {
-                self.step_and_look(t0, h, step)?;
-                return Ok((h, false));
-            }
+            return Ok((h, false));
         }
         let mut guess = self.first_crossing(high);
         let mut below: Option<f64> = None;
@@ -197,25 +190,6 @@ impl<const J: usize> Scene<J> {
         step(self, t0, h)?;
         self.look_at_contacts(t0 + h);
         Ok(())
-    }
-
-    /// When in a step of `h` (s) a place that is apart at both ends of it may have touched (s): at the top of
-    /// the cubic through depths and rates.
-    fn dip(&self, h: f64) -> Option<f64> {
-        let mut first: Option<f64> = None;
-        for contact in self.contacts() {
-            let ends = contact.places.iter().zip(contact.before.iter().zip(&contact.now));
-            for (_, (from, to)) in ends.filter(|(place, _)| !place.touches) {
-                if from.rate > 0.0 && to.rate < 0.0 && from.depth < 0.0 && to.depth < 0.0 {
-                    let (at, top) = top_of_cubic((from.depth, from.rate), (to.depth, to.rate), h);
-                    let near = 0.1 * (from.rate - to.rate) * h;
-                    if top > -near && first.is_none_or(|t| at < t) {
-                        first = Some(at);
-                    }
-                }
-            }
-        }
-        first
     }
 
     /// A first guess at the first crossing, by the rates at both ends (s into the step).
@@ -389,20 +363,4 @@ fn most_mobile_across(normal: Vec3<f64>, W: &Mat3<f64>) -> f64 {
     let t = normal.cross(s);
     let (a, b, c) = (s.dot(*W * s), t.dot(*W * t), s.dot(*W * t));
     0.5 * (a + b) + (0.25 * (a - b) * (a - b) + c * c).sqrt()
-}
-
-/// Time and value of the top of the cubic through depths and rates at both ends of a step.
-fn top_of_cubic((d0, v0): (f64, f64), (d1, v1): (f64, f64), h: f64) -> (f64, f64) {
-    let (a, b) = (d1 - d0 - v0 * h, (v1 - v0) * h);
-    // d = d0 + v0 h s + (3a - b) s² + (b - 2a) s³ with s from 0 to 1.
-    let (c2, c3) = (3.0 * a - b, b - 2.0 * a);
-    let value = |s: f64| d0 + s * (v0 * h + s * (c2 + s * c3));
-    let rate = |s: f64| v0 * h + s * (2.0 * c2 + 3.0 * s * c3);
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..50 {
-        let middle = 0.5 * (low + high);
-        if rate(middle) > 0.0 { low = middle } else { high = middle }
-    }
-    let s = 0.5 * (low + high);
-    (s * h, value(s))
 }

@@ -75,7 +75,7 @@ impl From<(SystemId, Frame<f64>)> for Side {
 
 impl Side {
     /// The same side while a system holds the payload that it is on, whose frame is then `at`.
-    pub(crate) fn taken(self, system: SystemId, held: HeldId, at: &Frame<f64>) -> Self {
+    pub(crate) fn on_held(self, system: SystemId, held: HeldId, at: &Frame<f64>) -> Self {
         let X_BF = at.X_BF * self.frame.X_BF;
         Self { system, frame: Frame { body: at.body, X_BF }, held: Some((held, self.frame)) }
     }

@@ -60,17 +60,21 @@ fn a_block_slides_as_far_as_coulomb_says_and_its_energy_is_booked() {
     let coulomb = MASS * 0.2 * 0.2 / (2.0 * MU * PRESSED);
     assert!((x - coulomb).abs() < 4e-4, "{x} {coulomb}");
     assert!(velocity(&scene, a).norm() < 1e-9);
-    let books = scene.contact_energy(id).unwrap();
-    assert!((books.friction_loss / kinetic - 1.0).abs() < 1e-6, "{books:?}");
-    assert!(books.rest().abs() < 1e-6 * kinetic, "{books:?}");
+    let energy = scene.contact_energy(id).unwrap();
+    assert!((energy.friction_loss / kinetic - 1.0).abs() < 1e-6, "{energy:?}");
+    assert!(energy.rest().abs() < 1e-6 * kinetic, "{energy:?}");
 }
 
 /// Below the limit of 3 N a load is held where `F/σ₀` puts it (2.5 N: put on at once, the damper bears some
 /// of it before the spring does); above it the block goes on as Coulomb says.
 #[test]
 fn what_is_below_the_limit_is_held_and_what_is_above_is_not() {
-    let (mut scene, a, _) = block(0.0, 2.5);
+    let (mut scene, a, id) = block(0.0, 2.5);
     fly(&mut scene, 60);
+    // What rests has a depth and a force as well, though neither ever falls.
+    let record = *scene.contact(id).unwrap().record();
+    assert!((record.deepest / (PRESSED / STIFFNESS) - 1.0).abs() < 1e-9, "{record:?}");
+    assert!((record.largest_force / PRESSED - 1.0).abs() < 1e-9, "{record:?}");
     let x = scene.body(a).pose().translation.x;
     assert!((x / (2.5 / 8e3) - 1.0).abs() < 1e-6, "{x}");
     let (mut scene, a, _) = block(0.0, 3.1);

@@ -10,7 +10,7 @@ use wrasse_world::{ContactAccuracy, NormalForce};
 const RESTITUTIONS: [f64; 10] = [0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.8, 0.9, 0.97, 1.0];
 
 /// How far an impact is from the closed forms: restitution (–), largest force and depth, losses and the rest of
-/// the energy books, each beside what is expected.
+/// the energy energy, each beside what is expected.
 struct Off {
     restitution: f64,
     peaks: [f64; 2],
@@ -37,9 +37,10 @@ fn impact(
     fly_until_parted(&mut scene, id);
     let (m, expected) = (10.0 * 300.0 / 310.0, law.restitution(v));
     let found = (velocity(&scene, a).z - velocity(&scene, b).z) / v;
-    let (record, books) = (*scene.contact(id).unwrap().record(), scene.contact_energy(id).unwrap());
+    let (record, energy) =
+        (*scene.contact(id).unwrap().record(), scene.contact_energy(id).unwrap());
     let kinetic = m * v * v / 2.0;
-    assert_eq!((record.touches, books.friction_loss), (1, 0.0));
+    assert_eq!((record.touches, energy.friction_loss), (1, 0.0));
     assert!((record.first_speed / v - 1.0).abs() < 1e-9);
     Off {
         restitution: (found - expected).abs(),
@@ -48,8 +49,8 @@ fn impact(
             (record.deepest / law.deepest(m, v) - 1.0).abs(),
         ],
         energy: [
-            (books.normal_loss / kinetic - (1.0 - expected * expected)).abs(),
-            books.rest().abs() / kinetic,
+            (energy.normal_loss / kinetic - (1.0 - expected * expected)).abs(),
+            energy.rest().abs() / kinetic,
         ],
     }
 }
@@ -120,6 +121,21 @@ fn a_touch_within_one_step_is_not_missed() {
     scene.advance(0.3).unwrap();
     assert_eq!(scene.contact(id).unwrap().record().touches, 1);
     assert!(velocity(&scene, b).norm() > 1e-3);
+}
+
+/// A flight that ends while shapes are still going into each other has seen a depth and a force.
+#[test]
+fn what_is_still_deepening_has_a_depth() {
+    let mut scene = scene(1e-4, ContactAccuracy::Everyday);
+    let a = ball(&mut scene, (2.0, 0.1), z(0.1 + 1e-5), (Vec3::zero(), z(-0.1)));
+    let b = wall(&mut scene);
+    let law = frictionless(NormalForce { stiffness: 1e4, exponent: 1.0, damping: 0.0 });
+    let id = touch(&mut scene, (a, Shape::Sphere { radius: 0.1 }), (b, Shape::Plane), law);
+    scene.begin_period();
+    scene.advance(2e-3).unwrap();
+    let (record, depth) = (*scene.contact(id).unwrap().record(), 0.1 - scene.body(a).p_NTcm_N.z);
+    assert!(depth > 1e-4 && (record.deepest / depth - 1.0).abs() < 1e-9, "{record:?} {depth}");
+    assert!((record.largest_force / (1e4 * depth) - 1.0).abs() < 1e-9, "{record:?}");
 }
 
 /// Which of the two is called A does not matter, nor on which side the wall is: the same numbers.
