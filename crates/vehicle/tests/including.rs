@@ -164,3 +164,47 @@ fn devices_folders_and_links_to_the_file_itself_are_not_included() {
     let told = read_vehicle(file, text("link.toml")).expect_err("a ring");
     assert!(told[0].message.contains("it includes itself"), "{told:?}");
 }
+
+/// A bus includes a box of tools, which includes a hand: poses and prefixes go on, tools and postures come
+/// along, and each number keeps its source.
+#[test]
+fn what_is_included_may_include() {
+    let hinge = "[[joint]]\nname = \"lid\"\nkind = \"continuous\"\nparent = \"chest\"\nchild = \"cover\"\n\
+                 position_m = [0, 0, 0]\naxis = [0, 0, 1]\n";
+    let chest = BUS.replace("\"bus\"", "\"chest\"").replace("\"none\"", "\"a chest\"")
+        + &BUS[BUS.find("[[body]]").unwrap()..].replace("\"bus\"", "\"cover\"")
+        + hinge
+        + "[[tool]]\nname = \"hook\"\non = \"cover\"\nposition_m = [0.5, 0, 0]\n\
+           [[posture]]\nname = \"open\"\njoints_deg.lid = 30\n\
+           [[include]]\nvehicle = \"hand.urdf\"\non = \"chest\"\nposition_m = [0, 2, 0]\nprefix = \"h_\"\n\
+           fix = [\"*\"]\nsource.derived = \"a hand\"\n";
+    let outer = format!(
+        "{BUS}[[include]]\nvehicle = \"chest.toml\"\non = \"bus\"\nposition_m = [1, 0, 0]\n\
+         orientation.rpy_deg = [0, 0, 90]\nprefix = \"c_\"\n"
+    );
+    let vehicle = read(&[("chest.toml", &chest), ("hand.urdf", HAND)], &outer).unwrap();
+    assert_eq!(vehicle.joint_names, ["c_lid"]);
+    assert_eq!(vehicle.tools, ["c_hook"]);
+    assert!((vehicle.posture("c_open").unwrap().q[0] - 30_f64.to_radians()).abs() < 1e-15);
+    // The hand stands 2 m along y of a chest that is turned by 90 deg: at 1 - 2 along x.
+    let palm = vehicle.pose_on_body("c_h_palm").unwrap().translation;
+    assert!((palm - wrasse_spatial::vec3(-1.0, 0.0, 0.0)).norm() < 1e-15, "{palm:?}");
+    assert_eq!(vehicle.included.len(), 2);
+    let sources: Vec<_> = vehicle.provenance.iter().map(|row| row.source.as_str()).collect();
+    assert!(sources.contains(&"a chest") && sources.contains(&"a hand"), "{sources:?}");
+}
+
+/// A hand whose finger cannot be is refused, and taken where the include says why.
+#[test]
+fn an_include_accepts_what_cannot_be_for_a_reason() {
+    let flat = HAND.replace("iyy=\"0.1\"", "iyy=\"0.9\"");
+    let of = |more: &str| {
+        read(&[("hand.urdf", &flat)], &with(&format!("on = \"bus\"\nfix = [\"t*\"]\n{more}")))
+    };
+    let refused = of("").unwrap_err();
+    assert!(refused.iter().any(|c| c.message.contains("triangle inequality")), "{refused:?}");
+    let vehicle = of("accept_nonphysical = \"as published\"").unwrap();
+    let why = |c: &Complaint| c.help.as_deref().unwrap_or_default().contains("as published");
+    let told = vehicle.remarks.iter().filter(|c| c.severity == Severity::Warning && why(c));
+    assert_eq!(told.count(), 1, "{:?}", vehicle.remarks);
+}
